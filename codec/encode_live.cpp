@@ -25,7 +25,7 @@ ContainerReader container_of(const Bytes& file) {
 
 LiveEncoder::LiveEncoder(MeshSequence mesh, const EncodeOptions& options, double key_every)
     : mesh_(std::move(mesh)), options_(options), key_every_(key_every) {
-  options_.effort = options.effort - 1;
+  options_.effort = less(options.effort);
   const ErrorMetric metric = options.target.metric;
   if (metric == ErrorMetric::kSize || metric == ErrorMetric::kBpfv ||
       metric == ErrorMetric::kNone || is_lossless(options.target))

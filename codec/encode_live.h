@@ -30,7 +30,7 @@ class LiveEncoder {
   /// `mesh`: all but the frames, with the clock of the clip. Its attributes are kept as they are in it, but for those that
   /// have no frame (`frames` 0): each piece brings their values. A largest error
   /// in per cent is one of the diagonal of the first file's frames, that of an attribute one of the range that it has there (of 1 where it
-  /// rests). Effort 1 takes the first file that keeps the
+  /// rests). Effort::kFast takes the first file that keeps the
   /// target, others search as one less does for a whole clip. Files go on learning where the one before ended; the first
   /// that starts `key_every` seconds after one that began anew does so again, and whoever joins late or has lost a file
   /// goes on there; 0: each does. Throws Error(kUsage) for what needs all frames:

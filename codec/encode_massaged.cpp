@@ -15,7 +15,6 @@ namespace {
 
 constexpr uint32_t kFewestFrames = 3, kSampleFrames = 16;
 constexpr double kLeastGain = 0.1;
-constexpr int kSampleEffort = 3;
 constexpr double kSampleKg = 0.1;
 
 bool is_error(ErrorMetric metric) {
@@ -43,7 +42,7 @@ MeshSequence sample_of(const MeshSequence& sequence, uint32_t reference) {
 /// Whether massaging a few frames makes them code clearly smaller.
 bool sample_shrinks(const MeshSequence& sequence, MassageOptions massage_options,
                     EncodeOptions options, MassageVerdict* verdict, const Progress& progress) {
-  options.effort = std::min(options.effort, kSampleEffort);
+  options.effort = std::min(options.effort, Effort::kNormal);
   options.cap.reset();
   options.keyframes.reset();
   if (!is_error(options.target.metric))

@@ -158,7 +158,7 @@ MatrixXd project_on_fields(const FrameView& clip, const Vector3d& origin, const 
 
 void combine_rows(const FrameView& clip, const Vector3d& origin, const MatrixXd& weights,
                   const std::function<void(size_t first, const MatrixXd& block)>& take) {
-  // A panel of 200 frames takes half of a cache of a megabyte: `encode --effort 1` of dance, 1 to 3 % less time than with 192.
+  // A panel of 200 frames takes half of a cache of a megabyte: `encode --effort fast` of dance, 1 to 3 % less time than with 192.
   constexpr size_t kVertices = 96;
   const bool frames = weights.rows() == static_cast<Index>(clip.frame_count);
   const size_t blocks = (clip.vertex_count + kVertices - 1) / kVertices;

@@ -84,6 +84,7 @@ void set_method(const anic_encode_options& host, EncodeOptions& options) {
       InterpolationChoice::kAuto};
   constexpr KeyframePoses kPoses[] = {KeyframePoses::kNative, KeyframePoses::kDraco,
                                       KeyframePoses::kAuto};
+  constexpr Effort kEfforts[] = {Effort::kNormal, Effort::kFast, Effort::kBest};
   constexpr OrderMode kOrders[] = {OrderMode::kVertices, OrderMode::kFree, OrderMode::kAll};
   options.basis = chosen(host.basis, kBases, "basis");
   if (host.keyframes > 0) {
@@ -99,7 +100,7 @@ void set_method(const anic_encode_options& host, EncodeOptions& options) {
   options.smallest = (host.flags & ANIC_ENCODE_SMALLEST) != 0;
   if (host.metadata)
     options.metadata = host.metadata;
-  options.effort = static_cast<int>(within(host.effort, 5, 9, "the effort"));
+  options.effort = chosen(host.effort, kEfforts, "effort");
 }
 
 void set_attributes(const anic_encode_options& host, AttributeOptions& attributes) {

@@ -27,6 +27,14 @@ enum class BasisChoice : uint8_t { kAuto, kKeyframes, kEigenshapes, kEigentrajec
 /// (MSGI), which decoders may lack, or by whichever does better.
 enum class InterpolationChoice : uint8_t { kLinear, kMsgi, kAuto };
 
+/// How long to search for a small file. kFirst takes the first one that keeps the target: of live streams.
+enum class Effort : uint8_t { kFirst, kFast, kNormal, kBest };
+
+/// The effort below, kFirst at least.
+constexpr Effort less(Effort effort) {
+  return effort == Effort::kFirst ? effort : static_cast<Effort>(static_cast<int>(effort) - 1);
+}
+
 /// How far a surface was moved before coding: its Hausdorff distance from the source's, in scene
 /// units.
 struct SurfaceChange {
@@ -66,7 +74,7 @@ struct EncodeOptions {
   /// itself. Null: segments begin anew.
   KeptLearning* learning = nullptr;
   AttributeOptions attributes;
-  int effort = 5;  ///< 1..9: how long to search; 0: the first file that keeps the target is taken
+  Effort effort = Effort::kNormal;
   /// What the search of eigenshapes and eigentrajectories does without, by the names of
   /// search_means(): to measure what each is worth.
   std::vector<std::string> without;

@@ -14,11 +14,11 @@ namespace {
 constexpr double kProducts =
     4 * 72;  // of the smaller side squared: products of three axes in double, four times
 constexpr double kKeyProducts = 120;                 // of frames squared, for key-frames
-constexpr double kFewTrials = 1700, kTrials = 3300;  // for each vertex: at effort 1, and above
+constexpr double kFewTrials = 1700, kTrials = 3300;  // for each vertex: fast, and with more effort
 constexpr double kAny = 1 << 20;                     // whatever the clip
 constexpr double kAttributes = 4;                    // values in memory at a time, of each
 constexpr double kFewShapes = 34,
-                 kFewTrajectories = 12;             // for each vertex and component: at effort 1
+                 kFewTrajectories = 12;             // for each vertex and component: fast
 constexpr double kShapes = 80, kTrajectories = 30;  // above
 constexpr double kTimes = 4000;  // for each frame: trials with the first components
 // For each frame and component: of a basis that is kept, and of trials with more than the first components.
@@ -76,15 +76,15 @@ double EncodingMemory::kept(const EncodeOptions& options) const {
 }
 
 double EncodingMemory::thread(const EncodeOptions& options) const {
-  return kAny + (options.effort > 1 ? kTrials : kFewTrials) * vertices + kTimes * frames;
+  return kAny + (options.effort > Effort::kFast ? kTrials : kFewTrials) * vertices + kTimes * frames;
 }
 
 double EncodingMemory::regions(double count) const {
   return positions() + count * products(vertices / count) / 4;
 }
 
-double EncodingMemory::basis(BasisKind kind, double components, int effort, double regions) const {
-  const bool shapes = kind == BasisKind::kEigenshapes, few = effort <= 1;
+double EncodingMemory::basis(BasisKind kind, double components, Effort effort, double regions) const {
+  const bool shapes = kind == BasisKind::kEigenshapes, few = effort <= Effort::kFast;
   const double of_vertex = shapes ? (few ? kFewShapes : kShapes)
                            : few  ? kFewTrajectories
                                   : kTrajectories;

@@ -42,7 +42,7 @@ struct EncodingMemory {
   double regions(double count) const;
 
   /// More for a basis of so many components in each of the regions, with the trials that use it.
-  double basis(BasisKind kind, double components, int effort, double regions = 1) const;
+  double basis(BasisKind kind, double components, Effort effort, double regions = 1) const;
 
  private:
   double products(double of_vertices) const;

@@ -19,17 +19,15 @@ namespace anicodec {
 namespace {
 
 constexpr int kStepRounds = 8;
-constexpr int kThoroughEffort = 2;  // from here on, files are coded with all means
 constexpr double kRateSlope = 0.5;  // the size goes about as error^-kRateSlope
 constexpr double kNear = 0.04;      // of the error asked for: sizes can be compared
-// Relative doubt of a size from one trial: with 0.01, quad_box at --kg 0.1 grew from effort 5 to 7.
+// Relative doubt of a size from one trial: with 0.01, quad_box at --kg 0.1 grew by more effort.
 constexpr double kDoubt = 0.03;
 constexpr size_t kMostComponents = 2000;
 constexpr size_t kFirstComponents = 48;  // found at first; twice as many whenever all are of use
 constexpr size_t kFewComponents = 16;    // of regions: steps of what is found at first
 // The part of the whole's components is regions^this or less: on chicken, dance, horse and flag 0.5 to 0.7 in 2 and 4, 0.3 to 0.7 in 8.
 constexpr double kComponentsOfRegions = -0.3;
-constexpr int kRegionsEffort = 2;        // from here on, surfaces are cut
 constexpr size_t kRichComponents = 24;   // of clips whose surface is
 constexpr size_t kFewestVertices = 200;  // of a region, on average
 // Of the bytes of the whole, by expectation, which ranks cuts badly: all below are tried; and of the best, by a trial
@@ -44,7 +42,7 @@ struct Nearness {
   double close, enough, aim;
 };
 
-// For searches of no effort. `anicodec_bench live` of dance, chicken, face, flag and horse took up to 3 % fewer bytes by this than by 0.93 and
+// For Effort::kFirst. `anicodec_bench live` of dance, chicken, face, flag and horse took up to 3 % fewer bytes by this than by 0.93 and
 // 0.97, and 1 to 16 % fewer by the lambda of pieces and weights that are fitted to what was decoded, all in as much time.
 constexpr Nearness kFirst{0.97, 0.97, 0.985};
 constexpr double kPieceLambda = 0.17;  // of pieces of live streams
@@ -55,10 +53,12 @@ constexpr Nearness kThorough{0.991, 0.99, 0.996};  // errors vary by some thousa
 constexpr int kPatience = 3;
 // Joint rounding raises the error by 1 to 7 %.
 constexpr double kJointStep = 0.965;
-// Settings whose first thorough trial shows more bytes than so many times those of the best are not searched further.
-constexpr double kWorthSearching = 0.99;
-constexpr size_t kMostApproaches = 2;
-constexpr size_t kMostFailures = 5;  // steps in a row that do not help end the search for settings
+// Settings whose first thorough trial shows more bytes than so many times those of the best found are not searched further: by
+// the best effort, and by others.
+constexpr double kWorthOfBest = 1.03, kWorthSearching = 0.99;
+constexpr size_t kMostApproaches = 2;  // of all but the best effort
+constexpr size_t kFewSteps = 4;        // before kinds are compared for the first time
+constexpr size_t kMostFailures = 5;    // steps in a row that do not help end the search, but the best
 
 size_t most_components(const LinearSettings& settings) {
   return settings.components.empty() ? 0 : std::ranges::max(settings.components);
@@ -73,20 +73,20 @@ size_t vertices_of(const LinearBasis& basis, size_t region) {
 }  // namespace
 
 LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis, BasisKind kind,
-                         int effort, uint32_t layers, bool smallest, uint32_t first_frame)
+                         Effort effort, uint32_t layers, bool smallest, uint32_t first_frame)
     : input_(input),
       analysis_(analysis),
       smallest_(smallest),
       first_frame_(first_frame),
       runs_(input.runs(first_frame, static_cast<uint32_t>(analysis.clip().frame_count))),
       kind_(kind),
-      effort_(std::clamp(effort, 0, 9)),
+      effort_(effort),
       bases_(std::make_unique<Bases>()) {
   const bool shapes = kind == BasisKind::kEigenshapes;
   choice_.pose = shapes ? ReferencePose::kMean : ReferencePose::kRankThree;
   choice_.base = shapes ? Base::kPose : Base::kAffine;
   choice_.settings.layers = layers;
-  thorough_ = effort >= kThoroughEffort;
+  thorough_ = effort > Effort::kFast;
   for (uint32_t p = 0; p < kWeightPredictors; ++p) {
     const char* mean = mean_of(static_cast<WeightPredictor>(p));
     if (mean && !input.allows(mean))
@@ -96,7 +96,7 @@ LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analys
     // Trajectories are many: half the time that prediction takes, for two bytes in a hundred.
     choice_.settings.neighbours = 12;
   }
-  if (effort_ == 0 || input.learning.hands_on) {
+  if (effort_ == Effort::kFirst || input.learning.hands_on) {
     choice_.settings.lambda = kPieceLambda;
     choice_.settings.refit_weights = input.allows(kRefittedWeightsMean);
   }
@@ -321,7 +321,7 @@ double LinearCoder::probe(double rmse) {
 }
 
 bool LinearCoder::tries_regions() const {
-  return !pose_ && effort_ >= kRegionsEffort && kind_ == BasisKind::kEigentrajectories &&
+  return !pose_ && effort_ > Effort::kFast && kind_ == BasisKind::kEigentrajectories &&
          input_.allows(kRegionsMean);
 }
 
@@ -414,32 +414,33 @@ void LinearCoder::try_regions(double rmse) {
   }
 }
 
-double LinearCoder::choose_settings(double rmse, int effort) {
-  if (chosen_ || effort_ == 0)
+double LinearCoder::choose_settings(double rmse, Steps wanted) {
+  if (chosen_ || effort_ == Effort::kFirst)
     return least_;
-  if (steps_done_ == 1) {
+  if (steps_done_ == 0) {
     least_rmse_ = rmse;
     least_ = probe(rmse);
   }
-  const bool shapes = kind_ == BasisKind::kEigenshapes;
-  while (steps_done_ < std::min(effort, effort_)) {
-    ++steps_done_;
-    std::vector<LinearStep> steps;
-    for (const LinearStep& step : linear_steps()) {
-      if (steps_done_ == (shapes ? step.shapes_from : step.trajectories_from) &&
-          input_.allows(step.name))
-        steps.push_back(step);
+  if (effort_ > Effort::kFast) {
+    const std::vector<LinearStep>& all = linear_steps();
+    const auto normal = static_cast<size_t>(std::ranges::find(all, Effort::kBest, &LinearStep::least) - all.begin());
+    for (const size_t end : {kFewSteps, normal, effort_ == Effort::kBest ? all.size() : normal}) {
+      std::vector<LinearStep> steps;
+      for (; steps_done_ < end; ++steps_done_) {
+        if (input_.allows(all[steps_done_].name))
+          steps.push_back(all[steps_done_]);
+      }
+      Candidate before{choice_, least_};
+      if (try_steps(steps, rmse))
+        earlier_.push_back(std::move(before));
+      if (wanted == Steps::kFew)
+        return least_;
     }
-    Candidate before{choice_, least_};
-    if (try_steps(steps, rmse))
-      earlier_.push_back(std::move(before));
+    failures_ = 0;
+    if (!smallest_)
+      try_steps(opening_steps(), rmse);
   }
-  if (steps_done_ < effort_)
-    return least_;
   chosen_ = true;
-  failures_ = 0;
-  if (!smallest_ && effort_ > 1)
-    try_steps(opening_steps(), rmse);
   return least_;
 }
 
@@ -447,15 +448,20 @@ double LinearCoder::choose_settings(double rmse, int effort) {
 /// there are threads are tried at a time: those after one that helps are then tried again.
 bool LinearCoder::try_steps(std::span<const LinearStep> steps, double rmse) {
   const auto threads = thread_count();
+  const size_t most_failures = effort_ == Effort::kBest ? steps.size() + failures_ : kMostFailures;
   bool changes = false;
   std::vector<LinearStep> left(steps.begin(), steps.end());
-  while (!left.empty() && failures_ < kMostFailures) {
+  while (!left.empty() && failures_ < most_failures) {
     std::vector<LinearChoice> changed;
     for (const LinearStep& step :
-         std::span(left).first(std::min({threads, left.size(), kMostFailures - failures_}))) {
+         std::span(left).first(std::min({threads, left.size(), most_failures - failures_}))) {
       LinearChoice& choice = changed.emplace_back(choice_);
       step.change(choice, kind_);
-      choice = started(choice, rmse);
+      try {
+        choice = started(choice, rmse);
+      } catch (const OverMemory&) {  // of a basis that the step needs
+        choice = choice_;
+      }
     }
     const std::vector<Measured> trials = measured(changed, rmse);
     const auto helps =
@@ -480,12 +486,13 @@ bool LinearCoder::try_steps(std::span<const LinearStep> steps, double rmse) {
 }
 
 double LinearCoder::prepare(double rmse) {
-  choose_settings(rmse, effort_);
+  choose_settings(rmse, Steps::kAll);
   approaches_.clear();
   approaches_.emplace_back(choice_);
-  // One trial tells a size but roughly: what a search of less effort ends with may be smaller yet.
+  // One trial tells a size but roughly: what fewer steps end with may be smaller yet.
   for (Candidate& earlier : std::views::reverse(earlier_)) {
-    if (approaches_.size() < kMostApproaches && earlier.bytes * (1 - kDoubt) <= least_)
+    const bool may_be_smaller = approaches_.size() < kMostApproaches && earlier.bytes * (1 - kDoubt) <= least_;
+    if (may_be_smaller || effort_ == Effort::kBest)
       approaches_.emplace_back(std::move(earlier.choice));
   }
   earlier_.clear();
@@ -510,7 +517,7 @@ std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
       continue;
     best = std::move(part);
     choice_ = std::move(approach.choice);
-    worth = std::min(worth, kWorthSearching * bytes(*best));
+    worth = std::min(worth, (effort_ == Effort::kBest ? kWorthOfBest : kWorthSearching) * bytes(*best));
   }
   approaches_.clear();
   if (thorough_ && best && least_ > 0 &&
@@ -545,7 +552,7 @@ void LinearCoder::turn_down(double rmse, CodedPart& best) {
 
 /// One more trial on the way to the error asked for.
 void LinearCoder::advance(Approach& a) {
-  const Nearness& near = thorough_ ? kThorough : effort_ > 0 ? kPlain : kFirst;
+  const Nearness& near = thorough_ ? kThorough : effort_ > Effort::kFirst ? kPlain : kFirst;
   LinearChoice& tried = a.tried;
   if (a.round == 0) {
     tried = started(a.choice, asked_);

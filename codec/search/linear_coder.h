@@ -28,18 +28,20 @@ namespace anicodec {
 /// that give the smallest streams, and the step that meets an error.
 class LinearCoder : public SegmentCoder {
  public:
-  /// `effort` 1..9: how many settings are tried; more never ends with a larger file. The analysis,
-  /// of the frames from `first_frame` on, must outlive the coder. What is called bytes below has what
+  /// Steps that are tried: those that kinds are compared after, or all of the effort.
+  enum class Steps { kFew, kAll };
+
+  /// The analysis, of the frames from `first_frame` on, must outlive the coder. What is called bytes below has what
   /// opening is worth added, unless the `smallest` file is wanted.
-  LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis, BasisKind kind, int effort,
+  LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis, BasisKind kind, Effort effort,
               uint32_t layers, bool smallest, uint32_t first_frame = 0);
 
   std::optional<CodedPart> at_rmse(double rmse) override;
   std::optional<CodedPart> near_rmse(double rmse) override;
 
-  /// Chooses settings for an error by the steps of an effort, or goes on where a search of less effort ended; nothing is left to
-  /// do at the coder's own. About the bytes that they take before joint rounding; 0 without effort.
-  double choose_settings(double rmse, int effort);
+  /// Chooses settings for an error by steps, or goes on with those that a call before left. About the bytes that they take
+  /// before joint rounding; 0 for Effort::kFirst.
+  double choose_settings(double rmse, Steps wanted);
 
   /// Chooses settings for an error, and tells about the bytes of the part that at_rmse() makes of it.
   double prepare(double rmse);
@@ -100,7 +102,7 @@ class LinearCoder : public SegmentCoder {
     double weights = 0, coefficients = 0;  ///< bytes of them, as they were coded
   };
 
-  /// Settings that a search of less effort ends with.
+  /// Settings that fewer steps end with.
   struct Candidate {
     LinearChoice choice;
     double bytes = 0;  ///< as one trial told; 0 if none did
@@ -178,10 +180,10 @@ class LinearCoder : public SegmentCoder {
   uint32_t first_frame_;
   Vector<uint32_t> runs_;  ///< of clips
   BasisKind kind_;
-  int effort_;
+  Effort effort_;
   LinearChoice choice_;
   bool thorough_ = false;  ///< files are coded with joint rounding and refitted weights
-  int steps_done_ = 1;     ///< the effort whose steps were tried
+  size_t steps_done_ = 0;  ///< of linear_steps()
   size_t failures_ = 0;    ///< of steps, in a row
   double least_ = 0;       ///< bytes in the trial of the settings chosen, until an error is met
   double least_rmse_ = 0;  ///< in that trial

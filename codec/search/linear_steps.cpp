@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kPoseFactor = 1.4;  ///< between steps of the pose that are tried
 
-// `encode --kg 0.1 --effort 2` of flag, dance and horse with 4 to 64 eighths: cloth does best with
+// `encode --kg 0.1 --effort normal` of flag, dance and horse with 4 to 64 eighths: cloth does best with
 // 32, characters with 4 to 8.
 constexpr uint8_t kAlike = 8;
 
@@ -27,47 +27,42 @@ void fewer_neighbours(LinearChoice& choice, BasisKind) {
 }  // namespace
 
 const std::vector<LinearStep>& linear_steps() {
+  using enum Effort;
   static const std::vector<LinearStep> steps = {
-      {"coarser pose", [](LinearChoice& c, BasisKind) { c.settings.pose_factor *= kPoseFactor; }, 2,
-       2},
+      {"coarser pose", [](LinearChoice& c, BasisKind) { c.settings.pose_factor *= kPoseFactor; }},
       {kFinerOrCoarserPose,
        [](LinearChoice& c, BasisKind) {
          const bool coarser = c.settings.pose_factor > LinearSettings{}.pose_factor;
          c.settings.pose_factor *= coarser ? kPoseFactor : 1 / kPoseFactor;
-       },
-       2, 2},
+       }},
       {"pose of a frame",
-       [](LinearChoice& c, BasisKind) { c.pose = ReferencePose::kFrame, c.base = Base::kAffine; },
-       2, 2},
-      {"prior by motion", [](LinearChoice& c, BasisKind) { c.settings.alike = kAlike; }, 2, 2},
+       [](LinearChoice& c, BasisKind) { c.pose = ReferencePose::kFrame, c.base = Base::kAffine; }},
+      {"prior by motion", [](LinearChoice& c, BasisKind) { c.settings.alike = kAlike; }},
       {kOtherPrior,
        [](LinearChoice& c, BasisKind) {
          c.settings.alike = c.settings.alike > 0 ? 4 * kAlike : kAlike / 2;
-       },
-       3, 3},
-      {"20 neighbours", [](LinearChoice& c, BasisKind) { c.settings.neighbours = 20; }, 7, 3},
+       }},
       {kOtherPose,
        [](LinearChoice& c, BasisKind kind) {
          const bool shapes = kind == BasisKind::kEigenshapes;
          c.pose = shapes ? ReferencePose::kRankThree : ReferencePose::kMean;
          c.base = Base::kAffine;
-       },
-       3, 4},
-      {"lambda 0.05", [](LinearChoice& c, BasisKind) { c.settings.lambda = 0.05; }, 4, 4},
-      {"coarser weights", [](LinearChoice& c, BasisKind) { c.settings.weight_factor *= 1.2; }, 4,
-       5},
-      {"2 passes per level", [](LinearChoice& c, BasisKind) { c.settings.passes_per_level = 2; }, 5,
-       5},
-      {"fewer components", [](LinearChoice& c, BasisKind) { c.settings.rank_factor *= 1.5; }, 5, 6},
-      {"radius 16", [](LinearChoice& c, BasisKind) { c.settings.radius = 16; }, 6, 6},
-      {"24 neighbours", [](LinearChoice& c, BasisKind) { c.settings.neighbours = 24; }, 7, 7},
-      {"lambda 0.11", [](LinearChoice& c, BasisKind) { c.settings.lambda = 0.11; }, 7, 7},
+       }},
+      {"lambda 0.05", [](LinearChoice& c, BasisKind) { c.settings.lambda = 0.05; }},
+      {"coarser weights", [](LinearChoice& c, BasisKind) { c.settings.weight_factor *= 1.2; }},
+      {"2 passes per level", [](LinearChoice& c, BasisKind) { c.settings.passes_per_level = 2; }},
+      {"fewer components", [](LinearChoice& c, BasisKind) { c.settings.rank_factor *= 1.5; }},
+      {"radius 16", [](LinearChoice& c, BasisKind) { c.settings.radius = 16; }, kBest},
+      {"20 neighbours", [](LinearChoice& c, BasisKind) { c.settings.neighbours = 20; }, kBest},
+      {"24 neighbours", [](LinearChoice& c, BasisKind) { c.settings.neighbours = 24; }, kBest},
+      {"lambda 0.11", [](LinearChoice& c, BasisKind) { c.settings.lambda = 0.11; }, kBest},
       {"yet coarser weights", [](LinearChoice& c, BasisKind) { c.settings.weight_factor *= 1.2; },
-       8, 8},
-      {"finer pose", [](LinearChoice& c, BasisKind) { c.settings.pose_factor /= 1.2; }, 8, 8},
-      {"finer weights", [](LinearChoice& c, BasisKind) { c.settings.weight_factor /= 1.15; }, 8, 8},
-      {"more components", [](LinearChoice& c, BasisKind) { c.settings.rank_factor /= 1.5; }, 9, 9},
-      {"radius 9", [](LinearChoice& c, BasisKind) { c.settings.radius = 9; }, 9, 9},
+       kBest},
+      {"finer pose", [](LinearChoice& c, BasisKind) { c.settings.pose_factor /= 1.2; }, kBest},
+      {"finer weights", [](LinearChoice& c, BasisKind) { c.settings.weight_factor /= 1.15; },
+       kBest},
+      {"more components", [](LinearChoice& c, BasisKind) { c.settings.rank_factor /= 1.5; }, kBest},
+      {"radius 9", [](LinearChoice& c, BasisKind) { c.settings.radius = 9; }, kBest},
   };
   return steps;
 }
@@ -86,11 +81,10 @@ const char* meaning_of(const LinearStep& step, const LinearChoice& changed) {
 const std::vector<LinearStep>& opening_steps() {
   static const std::vector<LinearStep> steps = {
       {"sparse refits",
-       [](LinearChoice& c, BasisKind) { c.settings.schedule = RefitSchedule::kSparse; }, 2, 2},
-      {"4 neighbours fewer", fewer_neighbours, 2, 2},
-      {"8 neighbours fewer", fewer_neighbours, 2, 2},
-      {"no refits", [](LinearChoice& c, BasisKind) { c.settings.schedule = RefitSchedule::kNone; },
-       2, 2},
+       [](LinearChoice& c, BasisKind) { c.settings.schedule = RefitSchedule::kSparse; }},
+      {"4 neighbours fewer", fewer_neighbours},
+      {"8 neighbours fewer", fewer_neighbours},
+      {"no refits", [](LinearChoice& c, BasisKind) { c.settings.schedule = RefitSchedule::kNone; }},
   };
   return steps;
 }

@@ -3,6 +3,7 @@
 #ifndef ANICODEC_CODEC_SEARCH_LINEAR_STEPS_H_
 #define ANICODEC_CODEC_SEARCH_LINEAR_STEPS_H_
 
+#include "codec/file/encode_options.h"
 #include "codec/search/linear_choice.h"
 #include "format/coding/time_weights.h"
 
@@ -15,17 +16,14 @@ namespace anicodec {
 struct LinearStep {
   const char* name;  ///< for EncodeOptions::without
   void (*change)(LinearChoice& choice, BasisKind kind);
-  int trajectories_from;  ///< the least effort, 1..9, at which eigentrajectories try it
-  int shapes_from;        ///< the same for eigenshapes
+  Effort least = Effort::kNormal;  ///< at which it is tried
 };
 
-/// The steps in the order in which they are tried at an effort: those that pay most often first. A
-/// step that helps is kept, and the next ones start from it. A search tries those of each effort
-/// up to its own, one after the other: it goes on where a search of less effort ends.
+/// The steps in the order in which they are tried: those that pay most often first, those of the best effort last. A
+/// step that helps is kept, and the next ones start from it.
 const std::vector<LinearStep>& linear_steps();
 
-/// Steps that may open sooner, for searches to which that is worth bytes: tried last, at efforts
-/// from 2 on.
+/// Steps that may open sooner, for searches to which that is worth bytes: tried last.
 const std::vector<LinearStep>& opening_steps();
 
 /// The change that a step made to a choice, for `encode -v`: one of "finer or yet coarser".

@@ -18,7 +18,6 @@ constexpr uint32_t kLayers = 3;
 // Times the bytes of the other kind, above which eigentrajectories and eigenshapes are not searched: before settings are
 // chosen, and after. Joint rounding takes 2 to 10 % off trajectories and 5 to 14 % off shapes.
 constexpr double kFarBehind[] = {1.08, 1.15}, kBehind[] = {1.04, 1.16};
-constexpr int kFewSteps = 2;  // effort after which kinds are compared for the first time
 // The same by one trial each. It is within 8 % of what further ones show: `encode` of dance, horse, chicken, flag and
 // face, by default and with --kg 0.1% and 1%.
 constexpr double kHopeless = 1.3;
@@ -125,7 +124,7 @@ bool RateControl::tries_keyframes(bool of_any_clip) const {
 }
 
 bool RateControl::allows_msgi() const {
-  return tries_keyframes(false) && options_.effort > 0 &&
+  return tries_keyframes(false) && options_.effort > Effort::kFirst &&
          options_.interpolation.value_or(InterpolationChoice::kAuto) != InterpolationChoice::kLinear &&
          input_.layout.sizes.triangles > 0;
 }
@@ -200,7 +199,7 @@ RateControl::LinearCoders RateControl::linear_coders(const LinearAnalysis& analy
     BasisChoice choice = kind == BasisKind::kEigenshapes ? BasisChoice::kEigenshapes
                                                          : BasisChoice::kEigentrajectories;
     const bool wanted = options_.basis == BasisChoice::kAuto
-                            ? options_.effort > 0 || kind == BasisKind::kEigentrajectories
+                            ? options_.effort > Effort::kFirst || kind == BasisKind::kEigentrajectories
                             : options_.basis == choice;
     if (wanted)
       coders.push_back(std::make_unique<LinearCoder>(input_, analysis, kind, options_.effort,
@@ -232,8 +231,8 @@ RateControl::LinearCoders RateControl::linear_coders(const LinearAnalysis& analy
     if (is_behind(kFarBehind))
       coders.pop_back();
     input_.expect(search_.expected(coders.size(), false));
-    for (const int effort : {kFewSteps, options_.effort}) {
-      probe([&](LinearCoder& coder) { return coder.choose_settings(rmse, effort); });
+    for (const LinearCoder::Steps steps : {LinearCoder::Steps::kFew, LinearCoder::Steps::kAll}) {
+      probe([&](LinearCoder& coder) { return coder.choose_settings(rmse, steps); });
       if (is_behind(kBehind))
         coders.pop_back();
     }
@@ -252,7 +251,7 @@ std::optional<Solution> RateControl::by_linear_bases() {
     coders.push_back(coder.get());
   std::optional<Solution> best = search_.best_of(coders);
   input_.expect(search_.expected(0, true));
-  if (!best || options_.effort == 0)
+  if (!best || options_.effort == Effort::kFirst)
     return best;
   const BasisKind kind = best->parts[0].encoded.sizes.kind;
   const auto used =

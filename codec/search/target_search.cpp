@@ -69,7 +69,7 @@ std::optional<Solution> TargetSearch::at_max_error(SegmentCoder& coder, double b
   // usual ratio of maximum to mean error in the direction that pays. Horse, dance, flag and a
   // captured face do best with 2.5 to 3.8.
   constexpr double kUsual = 3.3, kFactor = 1.3;
-  // Dance by the second, `encode --live --effort 1`: 102.6 kB with it, 127.6 kB with kUsual, 102.2 kB by a search.
+  // Dance by the second, `encode --live --effort fast`: 102.6 kB with it, 127.6 kB with kUsual, 102.2 kB by a search.
   constexpr double kOfPieces = 2.3;
   constexpr double kLeastGain = 0.003;
   std::optional<Solution> best;
@@ -83,7 +83,7 @@ std::optional<Solution> TargetSearch::at_max_error(SegmentCoder& coder, double b
     best = std::move(trial);
     return true;
   };
-  if (effort_ == 0 && trial_is_better(kOfPieces))
+  if (effort_ == Effort::kFirst && trial_is_better(kOfPieces))
     return best;
   const double asked_of_rival = rival ? rival->parts[0].asked : 0;
   const double first = asked_of_rival > 0 ? bound / asked_of_rival : kUsual;
@@ -298,7 +298,7 @@ TrialsLeft TargetSearch::expected(size_t coders, bool are_chosen) const {
   // From searches of dance, horse, chicken, face and flag, default effort (tests/codec/search/recorded_searches.h): of the first
   // coder and of each other one. Cuts in time and key-frames come last.
   constexpr double kOfOneError = 3, kOfSeveral = 10, kOfSize = 25, kOfOther = 1, kSteps = 13, kLast = 7, kWithoutEffort = 3;
-  if (effort_ == 0)
+  if (effort_ == Effort::kFirst)
     return {kWithoutEffort, 0};
   double trials = kOfOneError;
   switch (target_.metric) {
@@ -316,7 +316,7 @@ TrialsLeft TargetSearch::expected(size_t coders, bool are_chosen) const {
   }
   const auto of_all = static_cast<double>(coders);
   const double of_errors = coders == 0 ? 0 : trials + kOfOther * (of_all - 1);
-  if (effort_ == 1)  // nothing is thorough, and no steps are tried
+  if (effort_ == Effort::kFast)  // nothing is thorough, and no steps are tried
     return {of_errors + kLast, 0};
   return {(are_chosen ? 0 : kSteps * of_all) + kLast, of_errors};
 }

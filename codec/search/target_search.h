@@ -73,7 +73,7 @@ class TargetSearch {
 
   const EncoderInput& input_;
   Target target_;
-  int effort_;
+  Effort effort_;
   TrialFiles files_;
   std::map<const SegmentCoder*, BoundSearch> searches_;  ///< of sizes, by 1 / RMSE
 };

@@ -35,7 +35,7 @@ TimeSegmentation::TimeSegmentation(const EncoderInput& input, const LinearCoder&
 }
 
 LinearCoder TimeSegmentation::coder(const LinearAnalysis& analysis, const FrameRun& range) const {
-  LinearCoder coder(input_, analysis, whole_.kind(), 1, 1, whole_.smallest(), range.first);
+  LinearCoder coder(input_, analysis, whole_.kind(), Effort::kFast, 1, whole_.smallest(), range.first);
   coder.settings_of(whole_);
   coder.share_pose(pose_);
   return coder;

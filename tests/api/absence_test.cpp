@@ -11,7 +11,7 @@ namespace {
 TEST(AnicAbsence, HasAStatus) {
   EncodeOptions encoding;
   encoding.target = {ErrorMetric::kMaxError, 1, true};
-  encoding.effort = 1;
+  encoding.effort = Effort::kFast;
   const Bytes file = encode_scene(split_parts(two_boxes()), encoding).file;
   anic_options options = ANIC_INIT(anic_options);
   options.flags = ANIC_OPEN_BOUNDS;

@@ -23,7 +23,7 @@ namespace anicodec {
 inline Bytes two_segments(const MeshSequence& clip) {
   EncoderInput input(clip);
   LinearAnalysis analysis(input.frames());
-  LinearCoder whole(input, analysis, BasisKind::kEigenshapes, 1, 1, true);
+  LinearCoder whole(input, analysis, BasisKind::kEigenshapes, Effort::kFast, 1, true);
   const double rmse = 0.0005 * diagonal(clip);
   std::optional<CodedPart> one = whole.at_rmse(rmse);
   TimeSegmentation segmentation(input, whole, one->encoded.reference, rmse);

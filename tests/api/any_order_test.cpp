@@ -58,7 +58,7 @@ TEST(AnyOrder, ShowsTheSameVerticesAndPolygons) {
     EncodeOptions options;
     options.target = {ErrorMetric::kMaxError, 1, true};
     options.order = OrderMode::kAll;
-    options.effort = 1;
+    options.effort = Effort::kFast;
     const Bytes file = encode(corpus::make_clip(name), options).file;
     Shown source, any;
     ASSERT_EQ(show(file, 0, &source), ANIC_OK);

@@ -51,7 +51,7 @@ const EncodeResult& encoded_limbs(BasisChoice basis) {
     EncodeOptions options;
     options.target = {ErrorMetric::kKg, kKg, false};
     options.basis = basis;
-    options.effort = 2;
+    options.effort = Effort::kNormal;
     result = encode(limbs(), options);
   }
   return result;
@@ -373,7 +373,7 @@ TEST(AnicClips, AFileOfOneClipIsNoLargerForIt) {
   listed.clips = clips_of(listed);
   EncodeOptions options;
   options.target = {ErrorMetric::kKg, kKg, false};
-  options.effort = 1;
+  options.effort = Effort::kFast;
   EXPECT_EQ(encode(alone, options).file, encode(listed, options).file);
 }
 

@@ -34,7 +34,7 @@ Bytes encoded(const std::string& clip, BasisChoice basis, uint32_t frames) {
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 1, true};
   options.basis = basis;
-  options.effort = 1;
+  options.effort = Effort::kFast;
   return encode(frames > 0 ? corpus::make_scaled(clip, 300, frames) : corpus::make_clip(clip),
                 options)
       .file;

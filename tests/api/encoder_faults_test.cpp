@@ -35,7 +35,7 @@ class Encoding {
     options_.goal = ANIC_GOAL_MAX_ERROR;
     options_.goal_value = 0.05;
     options_.flags = ANIC_ENCODE_PERCENT;
-    options_.effort = 3;
+    options_.effort = ANIC_EFFORT_NORMAL;
     options_.threads = threads;
   }
 

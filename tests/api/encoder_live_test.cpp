@@ -30,7 +30,7 @@ class AnicLive : public testing::Test {
     options_.goal = ANIC_GOAL_MAX_ERROR;
     options_.goal_value = 1;
     options_.flags = ANIC_ENCODE_PERCENT;
-    options_.effort = 1;
+    options_.effort = ANIC_EFFORT_FAST;
     live_options_.piece_seconds = 8.0 / 24;
   }
 
@@ -101,7 +101,7 @@ TEST_F(AnicLive, MakesTheFilesOfTheEncoder) {
   mesh.rate = {24, 1, false};
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 1, true};
-  options.effort = 1;
+  options.effort = Effort::kFast;
   options.encoder = "anicodec 1.0.0";
   LiveEncoder encoder(mesh, options);
   std::vector<Bytes> expected;

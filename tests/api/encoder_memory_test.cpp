@@ -25,7 +25,7 @@ namespace {
 constexpr double kLoose = 4;
 constexpr double kAny = 1 << 21;
 
-EncodeOptions options_of(int effort, double kg = 0.1) {
+EncodeOptions options_of(Effort effort, double kg = 0.1) {
   EncodeOptions options;
   options.target = {ErrorMetric::kKg, kg, false};
   options.effort = effort;
@@ -57,38 +57,38 @@ void expect_within(const MeshSequence& sequence, const EncodeOptions& options) {
 }
 
 TEST(EncoderMemory, OfManyFramesOfFewVertices) {
-  expect_within(corpus::make_wave_grid(100, 500, 5), options_of(1));
-  expect_within(corpus::make_wave_grid(100, 500, 5), options_of(5));
+  expect_within(corpus::make_wave_grid(100, 500, 5), options_of(Effort::kFast));
+  expect_within(corpus::make_wave_grid(100, 500, 5), options_of(Effort::kNormal));
 }
 
 TEST(EncoderMemory, OfLongClips) {
-  expect_within(corpus::make_wave_grid(100, 2000, 5), options_of(1));
-  expect_within(corpus::make_scaled("noisy", 100, 520), options_of(1, 1));
-  expect_within(corpus::make_scaled("limb", 600, 600), options_of(1));
+  expect_within(corpus::make_wave_grid(100, 2000, 5), options_of(Effort::kFast));
+  expect_within(corpus::make_scaled("noisy", 100, 520), options_of(Effort::kFast, 1));
+  expect_within(corpus::make_scaled("limb", 600, 600), options_of(Effort::kFast));
 }
 
 TEST(EncoderMemory, OfLongClipsGrowsWithTheirFrames) {
-  const double few = held(corpus::make_wave_grid(600, 800, 5), options_of(1), 0).value();
-  const double many = held(corpus::make_wave_grid(600, 1600, 5), options_of(1), 0).value();
+  const double few = held(corpus::make_wave_grid(600, 800, 5), options_of(Effort::kFast), 0).value();
+  const double many = held(corpus::make_wave_grid(600, 1600, 5), options_of(Effort::kFast), 0).value();
   EXPECT_LT(many, 2.2 * few);
 }
 
 TEST(EncoderMemory, OfManyVerticesInFewFrames) {
-  expect_within(corpus::make_wave_grid(8000, 3, 2), options_of(1));
-  expect_within(corpus::make_scaled("limb", 4000, 3), options_of(5));
-  expect_within(corpus::make_scaled("soup", 1000, 10), options_of(3));
-  expect_within(corpus::make_scaled("points", 2000, 10), options_of(3));
+  expect_within(corpus::make_wave_grid(8000, 3, 2), options_of(Effort::kFast));
+  expect_within(corpus::make_scaled("limb", 4000, 3), options_of(Effort::kNormal));
+  expect_within(corpus::make_scaled("soup", 1000, 10), options_of(Effort::kNormal));
+  expect_within(corpus::make_scaled("points", 2000, 10), options_of(Effort::kNormal));
 }
 
 TEST(EncoderMemory, OfManyComponents) {
-  expect_within(corpus::make_wave_grid(1000, 120, 60), options_of(1, 0.01));
-  expect_within(corpus::make_wave_grid(1700, 60, 40), options_of(2, 0.01));
-  expect_within(corpus::make_scaled("noisy", 300, 60), options_of(2, 0.05));
+  expect_within(corpus::make_wave_grid(1000, 120, 60), options_of(Effort::kFast, 0.01));
+  expect_within(corpus::make_wave_grid(1700, 60, 40), options_of(Effort::kNormal, 0.01));
+  expect_within(corpus::make_scaled("noisy", 300, 60), options_of(Effort::kNormal, 0.05));
 }
 
 TEST(EncoderMemory, RegionsAreNotTriedWhereItIsShort) {
   const MeshSequence sequence = corpus::make_wave_grid(1700, 60, 40);
-  EncodeOptions options = options_of(2, 0.01);
+  EncodeOptions options = options_of(Effort::kNormal, 0.01);
   options.basis = BasisChoice::kEigentrajectories;
   const EncodingMemory memory = EncodingMemory::of(sequence, options);
   constexpr double kFirstComponents = 48;
@@ -101,10 +101,10 @@ TEST(EncoderMemory, RegionsAreNotTriedWhereItIsShort) {
 }
 
 TEST(EncoderMemory, OfKeyframesAndOfExactPositions) {
-  EncodeOptions options = options_of(2);
+  EncodeOptions options = options_of(Effort::kNormal);
   options.basis = BasisChoice::kKeyframes;
   expect_within(corpus::make_scaled("limb", 500, 200), options);
-  options = options_of(1);
+  options = options_of(Effort::kFast);
   options.target = {ErrorMetric::kMaxError, 0, false};
   expect_within(corpus::make_scaled("limb", 2000, 30), options);
 }
@@ -118,7 +118,7 @@ TEST(EncoderMemory, OfAttributes) {
   heat.frames = sequence.frame_count;
   for (const float x : sequence.positions)
     heat.values.push_back(x * x);
-  expect_within(sequence, options_of(2));
+  expect_within(sequence, options_of(Effort::kNormal));
   Attribute uv;
   uv.domain = AttributeDomain::kCorner;
   for (const uint32_t corner : sequence.polygons.corners) {
@@ -130,7 +130,7 @@ TEST(EncoderMemory, OfAttributes) {
     uv.name = "uv" + std::to_string(i);
     sequence.attributes.push_back(uv);
   }
-  expect_within(sequence, options_of(2));
+  expect_within(sequence, options_of(Effort::kNormal));
 }
 
 TEST(EncoderMemory, OfASceneIsThatOfItsMeshes) {
@@ -143,7 +143,7 @@ TEST(EncoderMemory, OfASceneIsThatOfItsMeshes) {
     mesh.present_in = {{0, 100}};
   }
   scene.clip.positions.clear();
-  EncodeOptions options = options_of(1);
+  EncodeOptions options = options_of(Effort::kFast);
   options.most_bytes = 5'000'000;
   EXPECT_THROW(encode_scene(scene, options), OverMemory);
   options.most_bytes = 12'000'000;
@@ -156,7 +156,7 @@ TEST(EncoderMemory, TakesFewerThreadsWhereItIsShort) {
   EncodingMemory memory;
   memory.vertices = 100000;
   memory.frames = 10;
-  EncodeOptions options = options_of(5);
+  EncodeOptions options = options_of(Effort::kNormal);
   const double kept = memory.kept(options), thread = memory.thread(options);
   for (const auto& [times, threads] : {std::pair(1.0, 1U), {4.5, 2U}, {5.5, 3U}, {40.0, 8U}}) {
     options.most_bytes = static_cast<uint64_t>(kept + times * thread + 1);

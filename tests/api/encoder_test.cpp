@@ -40,7 +40,7 @@ class AnicEncoder : public testing::Test {
     options_.goal = ANIC_GOAL_MAX_ERROR;
     options_.goal_value = 1;
     options_.flags = ANIC_ENCODE_PERCENT;
-    options_.effort = 1;
+    options_.effort = ANIC_EFFORT_FAST;
   }
 
   ~AnicEncoder() override { anic_destroy_encoder(encoder_); }
@@ -70,7 +70,7 @@ class AnicEncoder : public testing::Test {
     plain.rate.assumed = false;
     EncodeOptions options;
     options.target = {ErrorMetric::kMaxError, 1, true};
-    options.effort = 1;
+    options.effort = Effort::kFast;
     options.encoder = "anicodec 1.0.0";
     const Bytes bytes = anicodec::encode(plain, options).file;
     return {bytes.begin(), bytes.end()};
@@ -295,7 +295,7 @@ TEST_F(AnicEncoder, EncodesSeveralClipsOfAMesh) {
   MeshSequence both = clip_library({walk, run});
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 1, true};
-  options.effort = 1;
+  options.effort = Effort::kFast;
   options.encoder = "anicodec 1.0.0";
   const Bytes bytes = anicodec::encode(both, options).file;
 
@@ -376,7 +376,7 @@ TEST_F(AnicEncoder, TellsWhatIsWrong) {
 
   for (auto spoil : std::initializer_list<void (*)(anic_encode_options&)>{
            [](auto& o) { o.goal_value = -1; }, [](auto& o) { o.goal = static_cast<anic_goal>(8); },
-           [](auto& o) { o.effort = 10; }, [](auto& o) { o.flags = uint64_t{1} << 40; },
+           [](auto& o) { o.effort = static_cast<anic_effort>(3); }, [](auto& o) { o.flags = uint64_t{1} << 40; },
            [](auto& o) { o.max_error = std::numeric_limits<double>::infinity(); },
            [](auto& o) { o.keyframes = 13; }, [](auto& o) { o.threads = 5000; },
            [](auto& o) { o.interpolation = ANIC_INTERPOLATE_MSGI; }}) {

@@ -23,7 +23,7 @@ std::vector<Bytes> streamed(uint32_t count, double key_every) {
   mesh.positions = {};
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 0.2, true};
-  options.effort = 1;
+  options.effort = Effort::kFast;
   LiveEncoder encoder(mesh, options, key_every);
   std::vector<Bytes> all;
   const auto size = static_cast<ptrdiff_t>(clip.positions.size() / count);

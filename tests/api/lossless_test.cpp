@@ -55,7 +55,7 @@ anic_status encode_with(const MeshSequence& clip, const anic_encode_options& opt
 Bytes encoded() {
   anic_encode_options options = ANIC_INIT(anic_encode_options);
   options.flags = ANIC_ENCODE_LOSSLESS;
-  options.effort = 1;
+  options.effort = ANIC_EFFORT_FAST;
   Bytes file;
   EXPECT_EQ(encode_with(exact_source(), options, &file), ANIC_OK);
   return file;

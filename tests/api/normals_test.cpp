@@ -38,7 +38,7 @@ Asset still(MeshSequence clip) {
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 1e-3, true};
   options.basis = BasisChoice::kKeyframes;
-  options.effort = 1;
+  options.effort = Effort::kFast;
   return open(encode(clip, options).file);
 }
 

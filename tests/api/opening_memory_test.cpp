@@ -23,7 +23,7 @@ const Bytes& many_components(BasisChoice basis) {
     EncodeOptions options;
     options.target = {ErrorMetric::kKg, 0.02, false};
     options.basis = basis;
-    options.effort = 1;
+    options.effort = Effort::kFast;
     options.order = OrderMode::kFree;
     file = encode(corpus::make_scaled("waves", 2000, 64), options).file;
   }

@@ -48,7 +48,7 @@ Bytes encoded(UpAxis up, BasisChoice basis) {
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, kMaxError, false};
   options.basis = basis;
-  options.effort = 1;
+  options.effort = Effort::kFast;
   options.root_motion = true;
   return encode(walks(up), options).file;
 }

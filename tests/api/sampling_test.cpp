@@ -231,7 +231,7 @@ Asset opened(const MeshSequence& clip) {
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 1e-4, true};
   options.basis = BasisChoice::kEigenshapes;
-  options.effort = 1;
+  options.effort = Effort::kFast;
   return open(encode(clip, options).file);
 }
 

@@ -210,7 +210,7 @@ TEST(AnicReader, ChecksLimitsBeforeItReadsTheRest) {
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 0.01, true};
   options.basis = BasisChoice::kEigenshapes;
-  options.effort = 1;
+  options.effort = Effort::kFast;
   const Bytes file = encode(corpus::make_clip("cloth"), options).file;
   ASSERT_GT(file.size(), 8192U);
   FileInMemory source{file};

@@ -14,7 +14,7 @@ Bytes clip_with(const std::string& metadata) {
   MeshSequence clip = corpus::make_scaled("limb", 200, 80);
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 0.2, true};
-  options.effort = 1;
+  options.effort = Effort::kFast;
   options.metadata = metadata;
   return encode(clip, options).file;
 }

@@ -57,7 +57,7 @@ struct TimedEncode {
 
 /// Encodes with the program's defaults but for these; with `verbose` the trials and stages go to
 /// stderr.
-TimedEncode encode_timed(MeshSequence sequence, const Target& target, BasisChoice basis, int effort,
+TimedEncode encode_timed(MeshSequence sequence, const Target& target, BasisChoice basis, Effort effort,
                          bool verbose, OrderMode order = OrderMode::kFree,
                          bool smallest = false);
 

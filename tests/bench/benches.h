@@ -21,7 +21,7 @@ using namespace peers;  // what is compared with
 struct BenchOptions {
   std::vector<std::string> clips;  ///< words for load_clip()
   BasisChoice basis = BasisChoice::kAuto;
-  int effort = 5;
+  Effort effort = Effort::kNormal;
   bool verbose = false;
 };
 

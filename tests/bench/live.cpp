@@ -33,7 +33,7 @@ std::vector<Bytes> live_files(MeshSequence sequence, size_t frames, double key_e
 
 /// The clip in one file, with as long a search as the files of a stream have.
 Bytes whole_clip(MeshSequence sequence, EncodeOptions options) {
-  --options.effort;
+  options.effort = less(options.effort);
   options.bounds = false;  // those of a stream have none
   return encode(std::move(sequence), options).file;
 }

@@ -4,6 +4,7 @@
 #include "corpus/poses.h"
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/benches.h"
+#include "tools/inputs/encode_arguments.h"
 #include "tools/io/base/frame_rate.h"
 #include "tools/program/command.h"
 
@@ -83,7 +84,7 @@ tools::Options& add(Bench& bench, const char* name, const char* description, con
                          });
   options.arguments("INPUT", a.inputs, "Names of clips, or the files of one clip");
   options.repeated("--clip", a.clips, "CLIP", "A clip; may be repeated");
-  options.number("--effort", a.bench.effort, "N", {1, 9}, "As for anicodec encode (default 5)");
+  options.choice("--effort", a.bench.effort, {tools::kEfforts}, "As for anicodec encode (default normal)");
   options.flag("--json", a.json, "Print one JSON object");
   options.flag("--csv", a.csv, "Print comma-separated values");
   options.exclude({"--json", "--csv"});

@@ -25,7 +25,7 @@ import anicodec
 
 POINTS = 5e-4  # of the diagonal: the largest distance of a vertex
 FIELD = 1e-3  # of the range of a field
-EFFORT = 5  # the default
+EFFORT = "normal"
 CLIPS = ("classic/dance", "classic/horse", "simulated/flag", "captured/face", "classic/chicken")
 
 
@@ -370,7 +370,7 @@ def table_of_steps():
     values = fields["temperature"].astype(np.float32)
     moved = np.repeat(points, 1000, 0)
     moved[:, :, 2] = values[:, :, 0] / values.max() / 10
-    data = anicodec.encode(moved, faces, custom={"temperature": values}, effort=1, fps=1)
+    data = anicodec.encode(moved, faces, custom={"temperature": values}, effort="fast", fps=1)
     clip = anicodec.Clip(data)
     order = np.random.default_rng(1).integers(0, 1000, 200)
     turns = []

@@ -54,7 +54,7 @@ def show_first():
     """Pays what the first layer of a process costs, which is not of the clip."""
     with tempfile.TemporaryDirectory() as folder:
         small = pathlib.Path(folder, "small.anic")
-        small.write_bytes(anicodec.encode([[[0, 0, 0], [1, 0, 0], [0, 1, frame]] for frame in range(2)], [[0, 1, 2]], effort=1))
+        small.write_bytes(anicodec.encode([[[0, 0, 0], [1, 0, 0], [0, 1, frame]] for frame in range(2)], [[0, 1, 2]], effort="fast"))
         first = Usd.Stage.Open(str(small))
         points_of(first).Get(0)
 

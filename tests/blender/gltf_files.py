@@ -31,7 +31,7 @@ def there_and_back(command, path, folder):
     name = path.stem
     animations = animations_of(path)
     clip = ["--clip", animations[0]] if len(animations) > 1 else []  # that which Blender shows
-    encoded = subprocess.run([command, "encode", path, *clip, "--effort", "1", "-f", "-o", f"{name}.anic", "--json"],
+    encoded = subprocess.run([command, "encode", path, *clip, "--effort", "fast", "-f", "-o", f"{name}.anic", "--json"],
                              cwd=folder, text=True, capture_output=True)
     if encoded.returncode != 0:
         sys.exit(encoded.stderr)

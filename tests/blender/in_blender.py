@@ -59,7 +59,7 @@ def evaluated(item, frame, subframe=0.0):
 
 
 def export(path, **options):
-    return bpy.ops.export_scene.anic(filepath=str(path), effort=1, **options)
+    return bpy.ops.export_scene.anic(filepath=str(path), effort="fast", **options)
 
 
 def bring_in(path, **options):
@@ -158,7 +158,7 @@ def test_clips_are_chosen_and_faded():
     clips = [anicodec.SourceClip("walk", 7), anicodec.SourceClip("run", FRAMES - 7, fps=60)]
     polygons = meshes.polygon_starts(sheet.data), meshes.corners_of(sheet.data).astype(np.uint32)
     path = WORK / "moves.anic"
-    path.write_bytes(anicodec.encode(frames, polygons, clips=clips, fps=30, effort=1, up="z"))
+    path.write_bytes(anicodec.encode(frames, polygons, clips=clips, fps=30, effort="fast", up="z"))
     bound = max(info.max_error for info in anicodec.open(path).clips) * 1.01 + 1e-6
 
     scene = empty_scene()

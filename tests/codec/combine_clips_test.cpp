@@ -36,7 +36,7 @@ void expect_all_kernels_within_tolerance(const MeshSequence& sequence, BasisChoi
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 0.05, true};
   options.basis = basis;
-  options.effort = 1;
+  options.effort = Effort::kFast;
   Clip clip;
   ASSERT_TRUE(clip.open(encode(sequence, options).file).ok());
   const PlayKernels* all[kMaxPlayKernels];

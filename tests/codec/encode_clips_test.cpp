@@ -57,7 +57,7 @@ TEST_P(PercentOfClips, IsOfTheDiagonalOfEach) {
   EncodeOptions options;
   options.target = GetParam().target;
   options.basis = GetParam().basis;
-  options.effort = 1;
+  options.effort = Effort::kFast;
   const EncodeResult result = encode(source, options);
   Clip file;
   ASSERT_TRUE(file.open(result.file).ok());
@@ -86,7 +86,7 @@ TEST(EncodeClips, ACapInPerCentIsOfEachClip) {
   EncodeOptions options;
   options.target = {ErrorMetric::kKg, 5, false};
   options.cap = {ErrorMetric::kMaxError, 0.3, true};
-  options.effort = 1;
+  options.effort = Effort::kFast;
   const EncodeResult result = encode(source, options);
   for (const ClipResult& clip : result.clips) {
     EXPECT_LE(clip.max_error, 0.003 * clip.diagonal) << clip.name;
@@ -115,7 +115,7 @@ TEST(EncodeClips, ALengthInSceneUnitsIsTheSameForAll) {
   const MeshSequence source = small_and_large(20);
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 0.02, false};
-  options.effort = 1;
+  options.effort = Effort::kFast;
   Clip file;
   ASSERT_TRUE(file.open(encode(source, options).file).ok());
   for (const ClipRecord& clip : file.clips())
@@ -128,7 +128,7 @@ TEST(EncodeClips, AClipThatIsAPointTakesTheBoundOfTheSmallestOther) {
   for (const ErrorMetric metric : {ErrorMetric::kMaxError, ErrorMetric::kRmse}) {
     EncodeOptions options;
     options.target = {metric, 0.1, true};
-    options.effort = 1;
+    options.effort = Effort::kFast;
     Clip file;
     ASSERT_TRUE(file.open(encode(source, options).file).ok());
     EXPECT_DOUBLE_EQ(file.clips()[1].asked_value, 0.001 * diagonal);

@@ -22,7 +22,7 @@ namespace {
 EncodeOptions options_of(double max_error_percent) {
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, max_error_percent, true};
-  options.effort = 1;
+  options.effort = Effort::kFast;
   return options;
 }
 

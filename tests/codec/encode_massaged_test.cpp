@@ -14,7 +14,7 @@ namespace {
 EncodeOptions at_kg(double kg) {
   EncodeOptions options;
   options.target = {ErrorMetric::kKg, kg, false};
-  options.effort = 1;
+  options.effort = Effort::kFast;
   return options;
 }
 

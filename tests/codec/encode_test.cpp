@@ -28,7 +28,7 @@ EncodeOptions asking(const Target& target, BasisChoice basis) {
   EncodeOptions options;
   options.target = target;
   options.basis = basis;
-  options.effort = 1;
+  options.effort = Effort::kFast;
   return options;
 }
 
@@ -122,7 +122,7 @@ TEST(Encode, TellsAboutHowFarItIs) {
       EncodeOptions options;
       options.basis = basis;
       options.target = {metric, 0.1, metric == ErrorMetric::kMaxError};
-      options.effort = 3;
+      options.effort = Effort::kNormal;
       std::vector<double> parts;
       encode(clip, options, [&](std::string_view, double done) { parts.push_back(done); });
       ASSERT_TRUE(std::ranges::is_sorted(parts));
@@ -134,7 +134,7 @@ TEST(Encode, TellsAboutHowFarItIs) {
 TEST(Encode, FreeOrderLeavesOutTheVertexMapAndNothingElse) {
   for (const char* clip : {"limb", "nonmanifold"}) {
     EncodeOptions options = asking({ErrorMetric::kKg, 0.5, false}, BasisChoice::kAuto);
-    options.effort = 1;
+    options.effort = Effort::kFast;
     EditedFile ordered(encode(corpus::make_clip(clip), options).file);
     options.order = OrderMode::kFree;
     EditedFile free(encode(corpus::make_clip(clip), options).file);

@@ -27,7 +27,7 @@ class LiveQueues : public testing::Test {
     mesh_ = clip_;
     mesh_.positions = {};
     options_.target = {ErrorMetric::kMaxError, 0.2, true};
-    options_.effort = 1;
+    options_.effort = Effort::kFast;
     live_.piece = 8 / clip_.rate.value();
     live_.threads = 1;
   }

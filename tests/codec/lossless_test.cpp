@@ -27,7 +27,7 @@ EncodeOptions lossless(BasisChoice basis = BasisChoice::kAuto) {
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 0, false};
   options.basis = basis;
-  options.effort = 1;
+  options.effort = Effort::kFast;
   return options;
 }
 

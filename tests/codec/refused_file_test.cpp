@@ -23,7 +23,7 @@ Bytes encoded(const char* clip, BasisChoice basis, OrderMode order = OrderMode::
   options.target = {ErrorMetric::kMaxError, 1, true};
   options.basis = basis;
   options.keyframe_poses = KeyframePoses::kDraco;
-  options.effort = 1;
+  options.effort = Effort::kFast;
   options.order = order;
   return encode(corpus::make_clip(clip), options).file;
 }

@@ -53,7 +53,7 @@ TEST(SlowSizes, AreAsStated) {
       EncodeOptions options;
       options.target = {ErrorMetric::kKg, preset.kg, false};
       options.basis = preset.choice;
-      options.effort = 1;
+      options.effort = Effort::kFast;
       options.encoder = "anicodec";
       const size_t bytes = encode(sequence, options).file.size();
       std::ostringstream key;

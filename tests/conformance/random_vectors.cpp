@@ -63,7 +63,7 @@ class RandomVector {
 
   Bytes searched(const MeshSequence& clip) {
     EncodeOptions options;
-    options.effort = any({1, 2, 5});
+    options.effort = any({Effort::kFast, Effort::kNormal});
     options.order = any({OrderMode::kFree, OrderMode::kVertices, OrderMode::kAll});
     options.smallest = one_in(2);
     options.target = {ErrorMetric::kKg, any({0.05, 0.3, 2.0}), false};

@@ -104,7 +104,7 @@ Bytes second_triple() {
   EncodeOptions options;
   options.target = {ErrorMetric::kKg, 1, false};
   options.basis = BasisChoice::kEigentrajectories;
-  options.effort = 1;
+  options.effort = Effort::kFast;
   return encode(clip, options).file;
 }
 

@@ -377,7 +377,7 @@ internal static class PackageTest
         LiveMesh mesh = new LiveMesh { VertexCount = Vertices };
         mesh.Corners = Enumerable.Range(0, Vertices - 2).SelectMany(i => new[] { (uint)i, (uint)i + 1, (uint)i + 2 }).ToArray();
         mesh.Attributes.Add(new LiveAttribute { Name = "heat", Kind = AttributeKind.Custom, Components = 1 });
-        LiveOptions options = new LiveOptions { RateNumerator = 10, Effort = 1, Goal = Goal.MaxError, GoalValue = 0.001, Threads = 1, KeySeconds = 2 };
+        LiveOptions options = new LiveOptions { RateNumerator = 10, Effort = Effort.Fast, Goal = Goal.MaxError, GoalValue = 0.001, Threads = 1, KeySeconds = 2 };
         using (LiveEncoder live = Encoder.Live(mesh, options))
         using (AssetStream stream = new AssetStream())
         {

@@ -22,7 +22,7 @@ CPU = {"x86_64": "x64", "aarch64": "arm64"}
 ENUMERATIONS = {"ANIC_E_": "Status", "ANIC_UP_": "UpAxis", "ANIC_ORDER_": "VertexOrder", "ANIC_ATTRIBUTE_": "AttributeKind",
                 "ANIC_DOMAIN_": "Domain", "ANIC_ALPHA_": "AlphaMode", "ANIC_SAMPLE_": "Sampling", "ANIC_WRAP_": "Wrap", "ANIC_WHEN_": "When", "ANIC_SIDE_": "Side",
                 "ANIC_FORMAT_": "VertexFormat", "ANIC_VALUE_": "ValueFormat", "ANIC_BASIS_": "BasisKind",
-                "ANIC_TARGET_": "Target", "ANIC_GOAL_": "Goal", "ANIC_RECONSTRUCTION_": "Reconstruction", "ANIC_OPEN_": "OpenFlags", "ANIC_TEXTURE_": "BasisTexture"}
+                "ANIC_TARGET_": "Target", "ANIC_GOAL_": "Goal", "ANIC_EFFORT_": "Effort", "ANIC_RECONSTRUCTION_": "Reconstruction", "ANIC_OPEN_": "OpenFlags", "ANIC_TEXTURE_": "BasisTexture"}
 # Names that are a constant of no enumeration of the header.
 EXTRA = {("Status", "Ok"), ("OpenFlags", "None")}
 # Fixed arrays of the header that C# writes as fields.

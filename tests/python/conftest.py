@@ -25,7 +25,7 @@ def wave():
 
 @pytest.fixture(scope="session")
 def clip(wave):
-    return anicodec.open(anicodec.encode(*wave, fps=24, name="wave", effort=1))
+    return anicodec.open(anicodec.encode(*wave, fps=24, name="wave", effort="fast"))
 
 
 @pytest.fixture(scope="session")

@@ -20,14 +20,14 @@ def test_arrays_become_a_clip(tmp_path, wave):
     np.save(tmp_path / "wave.npy", positions)
     np.save(tmp_path / "faces.npy", faces)
     np.savez(tmp_path / "wave.npz", points=positions.astype(np.float64), cells=faces, times=np.arange(24) * 0.25, heat=positions[:, :, 2])
-    told = run("encode", tmp_path / "wave.npy", "--faces", tmp_path / "faces.npy", "-o", tmp_path / "a.anic", "--fps", 30, "--effort", 1)
+    told = run("encode", tmp_path / "wave.npy", "--faces", tmp_path / "faces.npy", "-o", tmp_path / "a.anic", "--fps", 30, "--effort", "fast")
     assert told.returncode == 0 and "24 frames at 30 fps" in told.stdout and not told.stderr, told.stderr
-    told = run("encode", tmp_path / "wave.npz", "-o", tmp_path / "b.anic", "--effort", 1, "--keyframe-selection", "pivot", "--memory", "500M")
+    told = run("encode", tmp_path / "wave.npz", "-o", tmp_path / "b.anic", "--effort", "fast", "--keyframe-selection", "pivot", "--memory", "500M")
     assert told.returncode == 0, told.stderr
     clip = anicodec.open(tmp_path / "b.anic")
     assert clip.time(23) == pytest.approx(23 / 4) and [a.name for a in clip.attributes] == ["heat"] and len(clip.faces) == len(faces)
     assert np.abs(clip.attribute_at(0, clip.time(7))[:, 0] - positions[7, :, 2]).max() < 1e-3
-    told = run("encode", tmp_path / "wave.npz", "-o", tmp_path / "c.anic", "--effort", 1, "--fields", "none")
+    told = run("encode", tmp_path / "wave.npz", "-o", tmp_path / "c.anic", "--effort", "fast", "--fields", "none")
     assert told.returncode == 0 and not anicodec.open(tmp_path / "c.anic").attributes
 
 
@@ -58,7 +58,7 @@ def test_a_clip_becomes_arrays(tmp_path, wave, capsys):
     positions, faces = wave
     mixed = [*map(list, faces[:-1]), list(faces[-1][:3])]
     for polygons in (faces, mixed):
-        clip = anicodec.open(anicodec.encode(positions, polygons, fps=12, start_time=3, effort=1, order="all",
+        clip = anicodec.open(anicodec.encode(positions, polygons, fps=12, start_time=3, effort="fast", order="all",
                                              custom={"times": positions[:, :, 2:], "weight": positions[0, :, :1]}))
         (tmp_path / "wave.anic").write_bytes(clip.data)
         assert _vtk_command.main(["decode", str(tmp_path / "wave.anic"), "-o", str(tmp_path / "wave.npz"), "-f"]) == 0

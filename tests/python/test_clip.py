@@ -44,10 +44,10 @@ def test_faces(wave, clip):
     assert clip.faces.shape == wave[1].shape
     assert {frozenset(face) for face in clip.faces.tolist()} == {frozenset(face) for face in wave[1].tolist()}
     assert clip.triangles.shape == (242, 3)
-    mixed = anicodec.open(anicodec.encode(wave[0], [(0, 1, 2), (1, 2, 3, 4)], order="all", effort=1))
+    mixed = anicodec.open(anicodec.encode(wave[0], [(0, 1, 2), (1, 2, 3, 4)], order="all", effort="fast"))
     offsets, corners = mixed.faces
     assert offsets.tolist() == [0, 3, 7] and corners.tolist() == [0, 1, 2, 1, 2, 3, 4]
-    assert anicodec.encode(mixed[:], mixed.faces, effort=1)
+    assert anicodec.encode(mixed[:], mixed.faces, effort="fast")
 
 
 def test_times(clip):
@@ -94,7 +94,7 @@ def test_attributes_of_corners_and_polygons_that_move(wave):
     frames, turns = np.arange(len(positions))[:, None, None], np.arange(faces.size)[:, None] % 3
     uv = (np.random.default_rng(1).random((faces.size, 2)) + 0.01 * frames + 0.02 * turns * np.sin(frames)).astype(np.float32)
     pressure = (np.sin(0.2 * np.arange(len(faces))[:, None] + 0.1 * frames) * [1, 2, 3, 4]).astype(np.float32)
-    clip = anicodec.open(anicodec.encode(positions, faces, uv=uv, custom={"pressure": pressure}, order="all", effort=1))
+    clip = anicodec.open(anicodec.encode(positions, faces, uv=uv, custom={"pressure": pressure}, order="all", effort="fast"))
     for number, values in enumerate((uv, pressure)):
         attribute = clip.attributes[number]
         assert attribute.moves and attribute.domain == ("corners", "polygons")[number]
@@ -106,7 +106,7 @@ def test_attributes_of_corners_and_polygons_that_move(wave):
 def test_moving_attribute(wave):
     positions, faces = wave
     colours = np.clip(positions * [1, 1, 5] * 0.5 + 0.25, 0, 1)
-    clip = anicodec.open(anicodec.encode(positions, faces, colours=colours, effort=1))
+    clip = anicodec.open(anicodec.encode(positions, faces, colours=colours, effort="fast"))
     assert clip.attributes[0].moves
     assert np.abs(clip.attribute_at(0, 7 / 24) - colours[7]).max() < 0.01
     with pytest.raises(ValueError):
@@ -161,7 +161,7 @@ def test_damaged_files(clip):
 def moves(wave):
     """Two clips of one mesh: 14 frames at 24 a second, and 10 at 60."""
     return anicodec.encode(*wave, clips=[anicodec.SourceClip("walk", 14), anicodec.SourceClip("run", 10, fps=60)],
-                           fps=24, effort=1)
+                           fps=24, effort="fast")
 
 
 def test_clips_of_a_file(moves):
@@ -194,7 +194,7 @@ def test_a_clip_opened_alone_is_all_there_is(moves):
 
 def test_several_of_many_clips(wave):
     names = ["a", "b", "c"]
-    data = anicodec.encode(*wave, clips=[anicodec.SourceClip(name, 8) for name in names], fps=24, effort=1)
+    data = anicodec.encode(*wave, clips=[anicodec.SourceClip(name, 8) for name in names], fps=24, effort="fast")
     clip, some = anicodec.open(data), anicodec.open(data, clips=["c", "a"])
     assert [(info.name, info.first_frame) for info in some.clips] == [("a", 0), ("c", 8)]
     assert np.array_equal(some[:], np.concatenate([clip[:8], clip[16:]]))
@@ -203,7 +203,7 @@ def test_several_of_many_clips(wave):
 
 def test_names_that_are_not_utf8(wave):
     """As programs write them that know only the code page of their machine."""
-    data = anicodec.encode(*wave, name="M\xfctze", events=[("Fu\xdf", 0.1)], effort=1)
+    data = anicodec.encode(*wave, name="M\xfctze", events=[("Fu\xdf", 0.1)], effort="fast")
     chunks = anic_file.read_chunks(data)
     for chunk in chunks:
         for letter in "\xfc\xdf":

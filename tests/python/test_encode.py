@@ -31,17 +31,17 @@ def read_faces(path):
 def test_same_bytes_as_the_command(tmp_path, command, target):
     command("corpus", "limb", "-q", "--vertices", 300, "--frame-count", 20, "-o", tmp_path / "limb.pc2")
     name, value = target
-    command("encode", "-q", "limb.obj", "limb.pc2", "-o", "limb.anic", "--fps", 25, "--no-attributes", "--effort", 2,
+    command("encode", "-q", "limb.obj", "limb.pc2", "-o", "limb.anic", "--fps", 25, "--no-attributes", "--effort", "normal",
             "--" + name.replace("_", "-"), value, cwd=tmp_path)
     data = anicodec.encode(read_pc2(tmp_path / "limb.pc2"), read_faces(tmp_path / "limb.obj"), name="limb", fps=25,
-                           effort=2, no_attributes=True, up=anicodec.open(tmp_path / "limb.anic").info["up"],
+                           effort="normal", no_attributes=True, up=anicodec.open(tmp_path / "limb.anic").info["up"],
                            **{name: value})
     assert data == (tmp_path / "limb.anic").read_bytes()
 
 
 def test_targets_of_motion(wave):
     for options, bound in (({"displacement": "0.1%"}, None), ({"sted": 0.05}, 0.05), ({"quality": "better"}, 0.02)):
-        data = anicodec.encode(*wave, effort=1, **options)
+        data = anicodec.encode(*wave, effort="fast", **options)
         clip = anicodec.open(data)
         measured = anicodec.metrics.compare(wave[0], clip, wave[1])
         assert measured["max_displacement_error"] == pytest.approx(data.measured["max_displacement_error"], rel=1e-4)
@@ -56,18 +56,18 @@ def test_targets_of_motion(wave):
 
 def test_every_kind_of_array_gives_the_same_bytes(wave):
     positions, faces = wave
-    expected = anicodec.encode(positions, faces, effort=1)
+    expected = anicodec.encode(positions, faces, effort="fast")
     wide = np.zeros((2 * len(positions), positions.shape[1], 5))
     wide[::2, :, 1:4] = positions
     forms = [positions.astype(np.float64), positions.astype(">f4"), positions.astype(">f8"), wide[::2, :, 1:4],
              np.asfortranarray(positions), positions[::-1][::-1], positions.tolist()]
     for form in forms:
-        assert anicodec.encode(form, faces, effort=1) == expected
+        assert anicodec.encode(form, faces, effort="fast") == expected
     frozen = positions.copy()
     frozen.flags.writeable = False
     for same in (faces.astype(np.int64), faces.tolist(), [list(face) for face in faces], faces.astype(">u2"),
                  (np.arange(0, faces.size + 1, 4), faces.ravel())):
-        assert anicodec.encode(frozen, same, effort=1, threads=1) == expected
+        assert anicodec.encode(frozen, same, effort="fast", threads=1) == expected
 
 
 def test_frames_by_a_function(wave):
@@ -78,8 +78,8 @@ def test_frames_by_a_function(wave):
         asked.append(number)
         return positions[number].astype(np.float64)
 
-    data = anicodec.encode(frame, faces, vertex_count=positions.shape[1], frame_count=len(positions), effort=1)
-    assert data == anicodec.encode(positions, faces, effort=1)
+    data = anicodec.encode(frame, faces, vertex_count=positions.shape[1], frame_count=len(positions), effort="fast")
+    assert data == anicodec.encode(positions, faces, effort="fast")
     assert asked == list(range(len(positions)))
     with pytest.raises(ZeroDivisionError):
         anicodec.encode(lambda number: 1 / 0, None, vertex_count=9, frame_count=2)
@@ -93,7 +93,7 @@ def test_attributes_and_labels_come_back(wave):
     colours = np.broadcast_to(uv[None, :, :1], (len(positions), len(uv), 3))
     materials = (["skin", "cloth"], np.arange(len(faces)) % 3 - 1)
     data = anicodec.encode(positions, faces, uv=uv, colours={"tint": colours}, materials=materials, order="all",
-                           custom={"heat": positions[0, :, :1]}, effort=1)
+                           custom={"heat": positions[0, :, :1]}, effort="fast")
     by_kind = {attribute.kind: attribute for attribute in anicodec.open(data).attributes}
     assert np.abs(by_kind["uv"].values - uv).max() < 2**-12
     assert by_kind["colour"].name == "tint" and not by_kind["colour"].moves
@@ -101,7 +101,7 @@ def test_attributes_and_labels_come_back(wave):
     assert by_kind["material"].labels == ("skin", "cloth")
     assert np.array_equal(by_kind["material"].values, np.arange(len(faces)) % 3)
     corners = np.random.default_rng(1).random((faces.size, 2))
-    found = anicodec.open(anicodec.encode(positions, faces, uv=corners, order="all", effort=1)).attributes[0]
+    found = anicodec.open(anicodec.encode(positions, faces, uv=corners, order="all", effort="fast")).attributes[0]
     assert found.domain == "corners" and np.abs(found.values - corners).max() < 2**-12
 
 
@@ -129,15 +129,15 @@ def test_several_clips(tmp_path, command, wave):
     for name, frames in (("walk", positions[:18]), ("run", positions[18:])):
         (tmp_path / f"{name}.pc2").write_bytes(head + struct.pack("<i", len(frames)) + frames.tobytes())
     command("encode", "-q", "limb.obj", "walk.pc2", "run.pc2", "-o", "limb.anic", "--fps", 25, "--no-attributes",
-            "--effort", 2, cwd=tmp_path)
+            "--effort", "normal", cwd=tmp_path)
     clips = [anicodec.SourceClip("walk", 18), anicodec.SourceClip("run", 12)]
-    same = anicodec.encode(positions, faces, clips=clips, fps=25, effort=2, no_attributes=True,
+    same = anicodec.encode(positions, faces, clips=clips, fps=25, effort="normal", no_attributes=True,
                            up=anicodec.open(tmp_path / "limb.anic").info["up"])
     assert same == (tmp_path / "limb.anic").read_bytes()
 
     positions, faces = wave
     clips = [anicodec.SourceClip("walk", 14, loop=True), anicodec.SourceClip("run", 10, fps=60, start_time=2)]
-    walk, run = anicodec.open(anicodec.encode(positions, faces, clips=clips, fps=25, effort=1)).clips
+    walk, run = anicodec.open(anicodec.encode(positions, faces, clips=clips, fps=25, effort="fast")).clips
     assert (walk.name, walk.frame_count, walk.fps, walk.loop, walk.start_time) == ("walk", 14, 25, True, 0)
     assert (run.name, run.first_frame, run.fps, run.loop, run.start_time) == ("run", 14, 60, False, 2)
     assert run.duration == pytest.approx(9 / 60) and run.max_error > 0
@@ -158,7 +158,7 @@ def test_looks_of_materials(wave):
     glass = anicodec.Material(base_colour=(0.25, 0.5, 1, 0.5), metallic=0.5, roughness=0.25, emissive=(0, 1, 2),
                               alpha="mask", alpha_cutoff=0.75, double_sided=True, normal_texture="bumps.png")
     names, numbers = ["glass", "unknown"], np.arange(len(faces)) % 2
-    data = anicodec.encode(positions, faces, materials=(names, numbers, [glass, None]), effort=1)
+    data = anicodec.encode(positions, faces, materials=(names, numbers, [glass, None]), effort="fast")
     material, = (attribute for attribute in anicodec.open(data).attributes if attribute.kind == "material")
     assert material.labels == ("glass", "unknown") and material.looks == (glass, None)
     for looks, text in (([glass], "1 looks of 2 materials"), ([glass._replace(alpha="some"), None], "not 'some'"),
@@ -170,7 +170,7 @@ def test_looks_of_materials(wave):
 
 def test_progress_and_cancelling(wave):
     seen = []
-    anicodec.encode(*wave, effort=1, progress=lambda stage, done: seen.append((stage, done)))
+    anicodec.encode(*wave, effort="fast", progress=lambda stage, done: seen.append((stage, done)))
     assert {stage for stage, _ in seen} == {"reading", "encoding"}
     assert all(0 <= done <= 1 for _, done in seen)
     with pytest.raises(anicodec.Cancelled):
@@ -184,7 +184,7 @@ def test_progress_and_cancelling(wave):
 
 
 def test_other_threads_run_while_it_encodes(wave):
-    worker = threading.Thread(target=anicodec.encode, args=wave, kwargs={"effort": 5})
+    worker = threading.Thread(target=anicodec.encode, args=wave, kwargs={"effort": "best"})
     worker.start()
     turns = 0
     while worker.is_alive():
@@ -216,7 +216,7 @@ GOOD = np.random.default_rng(2).random((3, 4, 3))
     (GOOD, None, {"kg": 1, "size": 2}, "two targets"),
     (GOOD, None, {"kg": float("nan")}, "greater than 0"),
     (GOOD, None, {"size": "4x"}, "'40k', not '4x'"),
-    (GOOD, None, {"effort": 10}, "from 1 to 9, not 10"),
+    (GOOD, None, {"effort": 10}, "not 10"),
     (GOOD, None, {"basis": "magic"}, "not 'magic'"),
     (GOOD, None, {"keyframes": 4}, "than the clip has frames"),
     (GOOD, None, {"fps": 0}, "fps must be greater than 0"),
@@ -242,8 +242,6 @@ def test_limits_and_types():
                         ("selection", "did you mean keyframe_selection"), ("normal_error", "no option")):
         with pytest.raises(TypeError, match=text):
             anicodec.encode(GOOD, **{wrong: 3})
-    with pytest.raises(TypeError):
-        anicodec.encode(GOOD, effort="high")
 
 
 def test_fields_have_bounds_of_their_own():
@@ -252,7 +250,7 @@ def test_fields_have_bounds_of_their_own():
     phase = (heat > 320).astype(np.int32)
     clip = anicodec.Clip(anicodec.encode(
         np.repeat(GOOD[:1], 12, 0), custom={"heat": heat[..., None], "phase": phase[..., None], "other": heat[..., None]},
-        field_errors={"heat": 0.5}, field_units={"heat": "K"}, fields=["heat", "phase"], effort=1))
+        field_errors={"heat": 0.5}, field_units={"heat": "K"}, fields=["heat", "phase"], effort="fast"))
     first, second = clip.attributes
     assert (first.name, first.unit, first.whole) == ("heat", "K", False)
     assert (second.name, second.unit, second.whole) == ("phase", "", True)
@@ -340,15 +338,15 @@ def test_positions_count_from_an_origin_where_they_are_far_from_zero(wave):
     positions, faces = wave
     place = np.array([500000, 4649776, 120])
     far = positions.astype(np.float64) + place
-    data = anicodec.encode(far, faces, effort=1)
+    data = anicodec.encode(far, faces, effort="fast")
     clip = anicodec.open(data)
     origin = np.array(clip.info["origin"])
     assert np.abs(origin - place).max() < 2 * clip.info["diagonal"]
     assert np.linalg.norm(clip[3] + origin - far[3], axis=1).max() <= clip.info["max_error"] * 1.01 + 1e-6
-    assert anicodec.open(anicodec.encode(far, faces, effort=1, origin=(500000, 4649776, 100))).info["origin"] == (500000, 4649776, 100)
-    assert anicodec.open(anicodec.encode(positions, faces, effort=1)).info["origin"] == (0, 0, 0)
+    assert anicodec.open(anicodec.encode(far, faces, effort="fast", origin=(500000, 4649776, 100))).info["origin"] == (500000, 4649776, 100)
+    assert anicodec.open(anicodec.encode(positions, faces, effort="fast")).info["origin"] == (0, 0, 0)
     with pytest.raises(anicodec.InputError, match="the maximum error is below what float32 keeps"):
-        anicodec.encode(far, faces, effort=1, origin="none")
+        anicodec.encode(far, faces, effort="fast", origin="none")
     for origin in ("here", (1, 2), 5):
         with pytest.raises(anicodec.InputError, match="origin is"):
             anicodec.encode(far, faces, origin=origin)

@@ -21,7 +21,7 @@ def frame(f):
 
 
 def begin(**options):
-    return anicodec.encode_live(FACES, vertex_count=VERTICES, fps=10, effort=1, threads=1,
+    return anicodec.encode_live(FACES, vertex_count=VERTICES, fps=10, effort="fast", threads=1,
                                 **{"max_error": 0.001, **options})
 
 

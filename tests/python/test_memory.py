@@ -20,7 +20,7 @@ def resident():
 
 def use(wave, clip):
     positions, faces = wave
-    anicodec.encode(positions, faces, effort=1, uv=positions[0, :, :2])
+    anicodec.encode(positions, faces, effort="fast", uv=positions[0, :, :2])
     anicodec.open(clip.data)[:].sum()
     clip.normals(3, crease=30)
     clip.at(0.3)

@@ -12,7 +12,7 @@ def visits(wave):
     """A sheet, and another one that is there in three frames."""
     positions, faces = wave
     meshes = [anicodec.SourceMesh(positions, faces, name="sheet"), anicodec.SourceMesh(positions[2:5], faces, name="guest", runs=[(2, 3)])]
-    return anicodec.open(anicodec.encode_meshes(meshes, effort=1, fps=8))
+    return anicodec.open(anicodec.encode_meshes(meshes, effort="fast", fps=8))
 
 
 def test_rerun(visits, tmp_path):

@@ -15,7 +15,7 @@ import anicodec.pyvista  # noqa: E402
 def path(tmp_path, wave):
     positions, faces = wave
     custom = {"heat": positions[:, :, 2:], "damage": anicodec.Field("polygons", np.arange(len(faces), dtype=float)[:, None])}
-    (tmp_path / "wave.anic").write_bytes(anicodec.encode(positions, faces, fps=4, start_time=1, effort=1, custom=custom))
+    (tmp_path / "wave.anic").write_bytes(anicodec.encode(positions, faces, fps=4, start_time=1, effort="fast", custom=custom))
     return tmp_path / "wave.anic"
 
 
@@ -40,7 +40,7 @@ def test_times_and_fields(path):
 def test_meshes_are_blocks(tmp_path, wave):
     positions, faces = wave
     meshes = [anicodec.SourceMesh(positions, faces, name="sheet"), anicodec.SourceMesh(positions[2:5], faces, name="guest", runs=[(2, 3)])]
-    (tmp_path / "two.anic").write_bytes(anicodec.encode_meshes(meshes, effort=1))
+    (tmp_path / "two.anic").write_bytes(anicodec.encode_meshes(meshes, effort="fast"))
     reader = pyvista.get_reader(tmp_path / "two.anic")
     assert [block.n_points for block in reader.read()] == [144, 0]
     reader.set_active_time_point(3)

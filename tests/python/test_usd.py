@@ -49,7 +49,7 @@ def stage(wave):
 
 def test_a_stage_becomes_a_clip(wave, stage):
     positions, _ = wave
-    data = usd.encode(stage, "/group/sheet", order="all", effort=1)
+    data = usd.encode(stage, "/group/sheet", order="all", effort="fast")
     clip = anicodec.open(data)
     assert clip.fps == 30 and clip.frame_count == 24 and clip.info["up"] == "z"
     assert clip.info["metres_per_unit"] == pytest.approx(0.01) and clip.info["start_time"] == pytest.approx(101 / 30)
@@ -62,7 +62,7 @@ def test_a_stage_becomes_a_clip(wave, stage):
 
 
 def test_meshes_come_and_go_and_are_written_back(stage, tmp_path):
-    clip = anicodec.open(usd.encode(stage, effort=1, order="all"))
+    clip = anicodec.open(usd.encode(stage, effort="fast", order="all"))
     named = {mesh.name: mesh for mesh in clip.meshes}
     assert [f for f in range(24) if named["guest"].shown_in(f)] == [4, 5, 6, 7, 8, 9]
     path = tmp_path / "back.usdc"
@@ -77,13 +77,13 @@ def test_meshes_come_and_go_and_are_written_back(stage, tmp_path):
     assert list(UsdGeom.Subset(back.GetPrimAtPath("/group/sheet/skin")).GetIndicesAttr().Get()) == [0, 1, 2]
     guest = UsdGeom.Imageable(back.GetPrimAtPath("/group/guest"))
     assert [guest.ComputeVisibility(code) for code in (101, 105, 111)] == ["invisible", "inherited", "invisible"]
-    again = anicodec.open(usd.encode(str(path), effort=1))
+    again = anicodec.open(usd.encode(str(path), effort="fast"))
     assert {mesh.name for mesh in again.meshes} == {"sheet", "guest"} and again.frame_count == 24
 
 
 def test_left_handed_faces_are_turned(wave, stage):
     UsdGeom.Mesh(stage.GetPrimAtPath("/group/sheet")).CreateOrientationAttr("leftHanded")
-    clip = anicodec.open(usd.encode(stage, "/group/sheet", order="all", effort=1))
+    clip = anicodec.open(usd.encode(stage, "/group/sheet", order="all", effort="fast"))
     assert np.array_equal(clip.faces, wave[1][:, ::-1])
     uv = next(attribute for attribute in clip.attributes if attribute.kind == "uv")
     assert np.allclose(uv.values, wave[0][0][clip.faces.ravel(), :2], atol=2**-11)
@@ -130,7 +130,7 @@ def test_transforms_that_mirror_turn_faces():
 def test_faces_that_are_holes_are_left_out(wave, stage):
     mesh = UsdGeom.Mesh(stage.GetPrimAtPath("/group/sheet"))
     mesh.CreateHoleIndicesAttr([1, 7])
-    clip = anicodec.open(usd.encode(stage, "/group/sheet", order="all", effort=1))
+    clip = anicodec.open(usd.encode(stage, "/group/sheet", order="all", effort="fast"))
     kept = np.delete(np.arange(121), [1, 7])
     assert np.array_equal(clip.polygons[1].reshape(-1, 4), wave[1][kept])
     kinds = {attribute.kind: attribute for attribute in clip.attributes}
@@ -195,7 +195,7 @@ def test_faults_name_the_prim(stage, tmp_path):
     mesh.GetFaceVertexIndicesAttr().Set([0, 1, 13, 12] * 119, 101)
     with pytest.raises(anicodec.InputError, match="/group/sheet: the faces change at time code"):
         usd.encode(stage, "/group/sheet")
-    assert len(anicodec.open(usd.encode(stage, "/group/sheet", topology_changes="keep", effort=1)).meshes) == 2
+    assert len(anicodec.open(usd.encode(stage, "/group/sheet", topology_changes="keep", effort="fast")).meshes) == 2
     with pytest.raises(FileNotFoundError):
         usd.encode(tmp_path / "none.usda")
     (tmp_path / "bad.usda").write_text("no stage")
@@ -217,7 +217,7 @@ def run_command(*arguments):
 def test_the_command_reads_and_writes_stages(stage, tmp_path):
     UsdGeom.Camera.Define(stage, "/eye")
     stage.Export(str(tmp_path / "shot.usda"))
-    encode = ("encode", tmp_path / "shot.usda", "-o", tmp_path / "clips" / "shot.anic", "--effort", 1)
+    encode = ("encode", tmp_path / "shot.usda", "-o", tmp_path / "clips" / "shot.anic", "--effort", "fast")
     told = run_command(*encode, "-v", "--meta", "author=me", "--event", "jump=0.5")
     assert told.returncode == 0 and " : 1, " in told.stdout and "24 frames at 30 fps (source)" in told.stdout, told.stderr
     assert "not kept: 1 Camera" in told.stderr and len(told.stderr.splitlines()) > 2
@@ -255,7 +255,7 @@ def test_the_command_takes_stages_of_a_folder_and_some_frames(tmp_path):
     (folder / "shot.usda").write_text("#usda 1.0\n(subLayers = [@./props/a.usda@])\n")
     (folder / "bad.usdc").write_bytes(b"no stage")
     assert run_command("corpus", "limb", "-o", folder / "limb.pc2", "--vertices", 300, "--frame-count", 3).returncode == 0
-    batch = ("encode", "--batch", folder, "-o", tmp_path / "out", "--effort", 1, "-j", 1)
+    batch = ("encode", "--batch", folder, "-o", tmp_path / "out", "--effort", "fast", "-j", 1)
     told = run_command(*batch)
     assert told.returncode == 2 and "1 stage of" in told.stdout and "bad: FAILED: " in told.stdout, told.stdout + told.stderr
     assert sorted(path.name for path in (tmp_path / "out").glob("*.anic")) == ["limb.anic", "shot.anic"]
@@ -274,7 +274,7 @@ def test_the_command_takes_stages_of_a_folder_and_some_frames(tmp_path):
 
 def test_a_stage_far_from_zero_keeps_its_digits(stage, tmp_path):
     UsdGeom.Xform(stage.GetPrimAtPath("/group")).AddTranslateOp(opSuffix="place").Set(Gf.Vec3d(500000.125, 4649776.25, -7))
-    clip = anicodec.open(usd.encode(stage, "/group/sheet", effort=1, order="all"))
+    clip = anicodec.open(usd.encode(stage, "/group/sheet", effort="fast", order="all"))
     assert max(clip.info["origin"]) > 4e6
     back = usd.decode(clip, tmp_path / "back.usdc")
     for code in (101, 124):
@@ -312,7 +312,7 @@ def test_samples_between_time_codes_are_frames(per_second, frames_per_second, co
     if frames_per_second:
         stage.SetFramesPerSecond(frames_per_second)
     triangle(stage, "/a", codes)
-    clip = anicodec.open(usd.encode(stage, lossless=True, effort=1))
+    clip = anicodec.open(usd.encode(stage, lossless=True, effort="fast"))
     assert clip.fps == fps and clip.frame_count == len(codes)
     assert clip[:][:, 0, 2] == pytest.approx(codes)
 
@@ -329,7 +329,7 @@ def test_each_instance_of_an_instancer_is_a_mesh():
         instancer.CreatePositionsAttr().Set(places, code)
     instancer.CreateInvisibleIdsAttr().Set([1], 1)
     instancer.CreateInvisibleIdsAttr().Set([], 2)
-    data = usd.encode(stage, lossless=True, effort=1)
+    data = usd.encode(stage, lossless=True, effort="fast")
     clip = anicodec.open(data)
     assert [mesh.name for mesh in clip.meshes] == ["part_0", "part_1"] and list(data.notes) == []
     assert clip.meshes[0][0][0].tolist() == [1000, 100, 10] and clip.meshes[0][1][0].tolist() == [1000, 100, 11]
@@ -346,7 +346,7 @@ def test_instances_come_and_go_by_their_ids():
         instancer.CreateIdsAttr().Set(ids, code)
         instancer.CreateProtoIndicesAttr().Set(numbers, code)
         instancer.CreatePositionsAttr().Set(places, code)
-    clip = anicodec.open(usd.encode(stage, lossless=True, effort=1))
+    clip = anicodec.open(usd.encode(stage, lossless=True, effort="fast"))
     assert [mesh.name for mesh in clip.meshes] == ["a_7", "b_9"]
     assert [[mesh.shown_in(frame) for frame in (0, 1)] for mesh in clip.meshes] == [[True, False], [True, True]]
     assert clip.meshes[1][:][:, 0, 0].tolist() == [5, 6]
@@ -375,7 +375,7 @@ def test_what_a_stage_has_besides_is_named():
     material.CreateSurfaceOutput()
     UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
     UsdGeom.Subset.CreateGeomSubset(mesh, "cut", UsdGeom.Tokens.face, [0], "fracture")
-    data = usd.encode(stage, effort=1)
+    data = usd.encode(stage, effort="fast")
     assert list(data.notes) == [
         "/group/a: variant detail=high is encoded, not low",
         "not kept: 1 Camera, 2 Sphere, 1 Mesh of purpose guide, 1 subdivision (catmullClark) of a mesh, 'creaseIndices' of meshes, "
@@ -389,7 +389,7 @@ def test_numbers_above_meshes_are_inherited():
     colour = UsdGeom.PrimvarsAPI(group).CreatePrimvar("displayColor", Sdf.ValueTypeNames.Color3fArray, "constant")
     colour.Set([(1, 0, 0.5)])
     triangle(stage, "/group/a")
-    attribute, = (each for each in anicodec.open(usd.encode(stage, effort=1)).attributes if each.kind == "colour")
+    attribute, = (each for each in anicodec.open(usd.encode(stage, effort="fast")).attributes if each.kind == "colour")
     assert np.allclose(attribute.values, (1, 0, 0.5), atol=0.01)
 
 
@@ -406,7 +406,7 @@ def test_instancers_in_prototypes_are_followed():
         instancer.CreatePositionsAttr().Set([(x, 1, 0) for x, _, _ in places], 2)
     inner.CreateInvisibleIdsAttr().Set([], 1)
     inner.CreateInvisibleIdsAttr().Set([1], 2)
-    clip = anicodec.open(usd.encode(stage, lossless=True, effort=1))
+    clip = anicodec.open(usd.encode(stage, lossless=True, effort="fast"))
     firsts = {mesh.name: mesh[0][0].tolist() for mesh in clip.meshes}
     assert firsts == {"leaf_0_0": [20, 0, 2], "leaf_0_1": [40, 0, 2], "leaf_1_0": [120, 0, 2], "leaf_1_1": [140, 0, 2]}
     assert clip.meshes[2][1][0].tolist() == [120, 3, 2] and not clip.meshes[3].shown_in(1)
@@ -447,14 +447,14 @@ def test_materials_keep_values_and_names_of_textures(tmp_path):
             looks[1].CreateInput(link, Sdf.ValueTypeNames.Float).ConnectToSource(texture.ConnectableAPI(), output)
     library.Save()
     (tmp_path / "shot.usda").write_text('#usda 1.0\ndef "a" (references = @./shared/library.usda@) {}\n')
-    data = usd.encode(tmp_path / "shot.usda", lossless=True, effort=1, order="all")
+    data = usd.encode(tmp_path / "shot.usda", lossless=True, effort="fast", order="all")
     assert list(data.notes) == ["not kept: 'clearcoat' of materials"]
     (tmp_path / "shot.anic").write_bytes(data)
     usd.decode(data, tmp_path / "back.usda")
     for path in (None, "back.usda", "shot.anic"):
         if path == "shot.anic" and "anic" not in Sdf.FileFormat.FindAllFileFormatExtensions():
             continue
-        again = anicodec.open(data if path is None else usd.encode(tmp_path / path, effort=1, order="all"))
+        again = anicodec.open(data if path is None else usd.encode(tmp_path / path, effort="fast", order="all"))
         material = next(attribute for attribute in again.attributes if attribute.kind == "material")
         assert material.labels == ("paint", "paint_1") and material.values.ravel().tolist() == [1, 2]
         plain, textured = material.looks
@@ -467,17 +467,17 @@ def test_materials_keep_values_and_names_of_textures(tmp_path):
 def test_parts_come_back():
     positions = [[(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, z)] for z in (0, 1)]
     mesh = anicodec.SourceMesh(positions, [(0, 1, 2), (1, 3, 2)], name="a", parts=(["left", "right"], [1, 0]))
-    back = usd.decode(anicodec.encode_meshes([mesh], effort=1, order="all"), Usd.Stage.CreateInMemory())
-    parts, = (attribute for attribute in anicodec.open(usd.encode(back, effort=1, order="all")).attributes if attribute.kind == "part")
+    back = usd.decode(anicodec.encode_meshes([mesh], effort="fast", order="all"), Usd.Stage.CreateInMemory())
+    parts, = (attribute for attribute in anicodec.open(usd.encode(back, effort="fast", order="all")).attributes if attribute.kind == "part")
     assert [parts.labels[label - 1] for label in parts.values.ravel()] == ["right", "left"]
 
 
 def test_samples_that_no_rate_meets_are_frames():
     stage = timed_stage(1, 3, 24)
     triangle(stage, "/a", [1, 2, 2.03, 3])
-    clip = anicodec.open(usd.encode(stage, lossless=True, effort=1))
+    clip = anicodec.open(usd.encode(stage, lossless=True, effort="fast"))
     assert clip[:][:, 0, 2] == pytest.approx([1, 2, 2.03, 3]) and clip.time(2) == pytest.approx(1.03 / 24)
-    data = usd.encode(stage, fps=24, effort=1)
+    data = usd.encode(stage, fps=24, effort="fast")
     assert data.notes[0] == "1 time samples of the stage stand between the frames; without fps= each is a frame"
     back = usd.decode(clip, Usd.Stage.CreateInMemory())
     assert UsdGeom.Mesh(back.GetPrimAtPath("/a")).GetPointsAttr().GetTimeSamples() == pytest.approx([1, 2, 2.03, 3])
@@ -487,7 +487,7 @@ def test_codes_that_are_ticks_are_no_frames():
     stage = timed_stage(0, 2500, 6000)
     stage.SetFramesPerSecond(24)
     triangle(stage, "/a", range(0, 2501, 250))
-    clip = anicodec.open(usd.encode(stage, lossless=True, effort=1))
+    clip = anicodec.open(usd.encode(stage, lossless=True, effort="fast"))
     assert clip.frame_count == 11 and clip.fps == 24
     back = usd.decode(clip, Usd.Stage.CreateInMemory())
     assert (back.GetTimeCodesPerSecond(), back.GetFramesPerSecond()) == (6000, 24)
@@ -497,7 +497,7 @@ def test_codes_that_are_ticks_are_no_frames():
 def test_rates_of_television_are_exact():
     stage = timed_stage(1001, 1004, 24 / float(np.float32(1.001)))
     triangle(stage, "/a", range(1001, 1005))
-    clip = anicodec.open(usd.encode(stage, lossless=True, effort=1))
+    clip = anicodec.open(usd.encode(stage, lossless=True, effort="fast"))
     assert (clip.fps.numerator, clip.fps.denominator) == (24000, 1001)
     back = usd.decode(clip, Usd.Stage.CreateInMemory())
     assert UsdGeom.Mesh(back.GetPrimAtPath("/a")).GetPointsAttr().GetTimeSamples() == [1001, 1002, 1003, 1004]
@@ -515,7 +515,7 @@ def test_splines_are_followed():
     for code, value in ((1, 0.0), (11, 10.0)):
         spline.SetKnot(Ts.Knot(time=code, value=value, nextInterp=Ts.InterpLinear))
     mesh.AddTranslateXOp().GetAttr().SetSpline(spline)
-    clip = anicodec.open(usd.encode(stage, lossless=True, effort=1))
+    clip = anicodec.open(usd.encode(stage, lossless=True, effort="fast"))
     assert clip[:][:, 0, 0].tolist() == list(range(11)) and clip[:][:, 0, 2].tolist() == [1, 2] + 9 * [3]
 
 
@@ -537,7 +537,7 @@ def test_normals_say_which_edges_are_hard():
         if values is not None:
             mesh.CreateNormalsAttr([tuple(map(float, normal)) for normal in values])
             mesh.SetNormalsInterpolation(interpolation)
-        clip = anicodec.open(usd.encode(stage, order="all", effort=1, max_error=1e-4))
+        clip = anicodec.open(usd.encode(stage, order="all", effort="fast", max_error=1e-4))
         shown = clip.normals(0, per_corner=True, source_edges=True)
         assert np.allclose(shown, np.repeat(flat, 4, axis=0) if hard else vertex[quads], atol=1e-2), (interpolation, scheme)
         back = usd.decode(clip, Usd.Stage.CreateInMemory())
@@ -554,7 +554,7 @@ def test_one_level_of_detail_is_read():
         triangle(stage, f"/tree/{name}")
     if "LODRootAPI" not in root.GetAppliedSchemas():
         pytest.skip("this release has no levels of detail")
-    data = usd.encode(stage, effort=1)
+    data = usd.encode(stage, effort="fast")
     assert len(anicodec.open(data).meshes) == 1
     assert list(data.notes) == ["not kept: 1 level of detail beside /tree/fine"]
 
@@ -564,7 +564,7 @@ def test_velocities_move_points_between_samples():
     mesh = triangle(stage, "/a", [1, 3])
     for code in (1, 3):
         mesh.CreateVelocitiesAttr().Set([(24, 0, 0)] * 3, code)
-    clip = anicodec.open(usd.encode(stage, lossless=True, effort=1))
+    clip = anicodec.open(usd.encode(stage, lossless=True, effort="fast"))
     assert clip[:][:, 0, 0].tolist() == [0, 1, 0] and clip[:][:, 0, 2].tolist() == [1, 1, 3]
 
 
@@ -575,7 +575,7 @@ def test_numbers_of_many_components_come_back():
     for code in (1, 2):
         primvars.CreatePrimvar("six", Sdf.ValueTypeNames.FloatArray, "vertex", 6).Set([i / 2 + code for i in range(18)], code)
         primvars.CreatePrimvar("displayColor", Sdf.ValueTypeNames.Color3fArray, "constant").Set([(code / 2, 0, 0)], code)
-    clip = anicodec.open(usd.encode(stage, effort=1, attribute_error=1e-4, colour_bits=12))
+    clip = anicodec.open(usd.encode(stage, effort="fast", attribute_error=1e-4, colour_bits=12))
     decoded = usd.decode(clip, Usd.Stage.CreateInMemory())
     back = UsdGeom.PrimvarsAPI(decoded.GetPrimAtPath("/a"))
     six = back.GetPrimvar("six")
@@ -598,7 +598,7 @@ def test_value_clips_are_followed(tmp_path):
     clips.SetClipPrimPath("/a")
     clips.SetClipActive([(1, 0), (2, 1)])
     clips.SetClipTimes([(1, 1), (2, 2)])
-    clip = anicodec.open(usd.encode(stage, lossless=True, effort=1))
+    clip = anicodec.open(usd.encode(stage, lossless=True, effort="fast"))
     assert clip[:][:, 0, 2].tolist() == [1, 2]
 
 
@@ -607,7 +607,7 @@ def test_what_rests_is_written_once_and_units_come_back(wave):
     UsdGeom.SetStageMetersPerUnit(stage, 0.01)
     triangle(stage, "/shot/xf/still")
     triangle(stage, "/shot/xf/moving", range(1001, 1005))
-    back = usd.decode(usd.encode(stage, lossless=True, effort=1), Usd.Stage.CreateInMemory())
+    back = usd.decode(usd.encode(stage, lossless=True, effort="fast"), Usd.Stage.CreateInMemory())
     assert UsdGeom.GetStageMetersPerUnit(back) == 0.01 and (back.GetStartTimeCode(), back.GetEndTimeCode()) == (1001, 1004)
     still = UsdGeom.Mesh(back.GetPrimAtPath("/shot/xf/still"))
     assert still.GetPointsAttr().GetNumTimeSamples() == 0 and len(still.GetPointsAttr().Get()) == 3
@@ -634,7 +634,7 @@ def test_doubts_about_stages_are_notes(tmp_path):
     shader.CreateInput("diffuseColor", Sdf.ValueTypeNames.String).Set("red")
     paint.CreateSurfaceOutput().ConnectToSource(shader.ConnectableAPI(), "surface")
     UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(paint)
-    notes = "\n".join(usd.encode(stage, effort=1).notes)
+    notes = "\n".join(usd.encode(stage, effort="fast").notes)
     for text in ("the up axis X is taken for Y", "/skin/strip: the skin has no SkelRoot above it", "none.usda", "values of /paint, which are none"):
         assert text in notes, notes
 

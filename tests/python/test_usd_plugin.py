@@ -40,7 +40,7 @@ def sheet(wave, tmp_path_factory):
     meshes = [anicodec.SourceMesh(positions, faces, name="sheet", uv=corners, materials=(["skin"], numbers, [look])),
               anicodec.SourceMesh(positions[4:10], faces, name="guest", runs=[(4, 6)])]
     path = tmp_path_factory.mktemp("usd") / "sheet.anic"
-    path.write_bytes(anicodec.encode_meshes(meshes, fps=30, start_time=101 / 30, unit=0.01, up="z", name="shot", order="all", effort=1))
+    path.write_bytes(anicodec.encode_meshes(meshes, fps=30, start_time=101 / 30, unit=0.01, up="z", name="shot", order="all", effort="fast"))
     return str(path)
 
 
@@ -173,7 +173,7 @@ def test_codes_are_those_of_the_stage(rate, codes, tmp_path):
     for code in codes:
         mesh.CreatePointsAttr().Set([(0, 0, code), (1, 0, 0), (0, 1, 0)], code)
     path = tmp_path / "a.anic"
-    path.write_bytes(usd.encode(stage, lossless=True, effort=1))
+    path.write_bytes(usd.encode(stage, lossless=True, effort="fast"))
     layer = Usd.Stage.Open(str(path))
     assert layer.GetTimeCodesPerSecond() == rate
     found = UsdGeom.Mesh(layer.GetPrimAtPath("/a")).GetPointsAttr()
@@ -194,7 +194,7 @@ def test_the_layer_fits_over_its_stage(wave, tmp_path):
         mesh.CreatePointsAttr().Set(here, frame - 3)
     mesh.AddRotateXOp().Set(90.0)
     stage.Save()
-    data = usd.encode(stage, lossless=True, effort=1)
+    data = usd.encode(stage, lossless=True, effort="fast")
     (tmp_path / "cloth.anic").write_bytes(data)
     over = Sdf.Layer.FindOrOpen(str(tmp_path / "cloth.anic"), args={"over": "true"})
     written = usd.decode(data, tmp_path / "over.usda", over=True)

@@ -43,7 +43,7 @@ def field(clip, name, frame, mesh=0):
 
 @pytest.mark.parametrize("name", FORMS)
 def test_a_series_becomes_a_clip(tmp_path, steps, name):
-    encoded = simulations.encode(data.write_series(steps, tmp_path / name), effort=1)
+    encoded = simulations.encode(data.write_series(steps, tmp_path / name), effort="fast")
     clip = anicodec.open(encoded)
     assert [clip.time(frame) for frame in range(len(clip))] == pytest.approx([0.5 * number for number in range(data.STEPS)])
     outer = surface_points(steps[0])
@@ -59,7 +59,7 @@ def test_a_series_becomes_a_clip(tmp_path, steps, name):
 
 def test_fields_are_chosen_and_cells_keep_their_own(tmp_path, steps):
     path = data.write_series(steps, tmp_path / "beam.pvd")
-    clip = anicodec.open(simulations.encode(path, fields="phase,stress", effort=1, order="all"))
+    clip = anicodec.open(simulations.encode(path, fields="phase,stress", effort="fast", order="all"))
     shapes = {attribute.name: (attribute.domain, attribute.values.shape[1], attribute.moves) for attribute in clip.attributes}
     assert shapes == {"stress": ("vertices", 6, True), "phase": ("polygons", 1, True)}
     extract = vtk.vtkDataSetSurfaceFilter()
@@ -67,7 +67,7 @@ def test_fields_are_chosen_and_cells_keep_their_own(tmp_path, steps):
     extract.Update()
     phases = data.vtk_to_numpy(extract.GetOutput().GetCellData().GetArray("phase"))
     assert np.array_equal(np.rint(field(clip, "phase", 3)[:, 0]), phases)
-    assert not anicodec.open(simulations.encode(path, fields="none", effort=1)).attributes
+    assert not anicodec.open(simulations.encode(path, fields="none", effort="fast")).attributes
     with pytest.raises(anicodec.InputError, match="beam.pvd: step 0: there is no field 'heta'; there is displacement, heat"):
         simulations.encode(path, fields=["heta"])
 
@@ -78,7 +78,7 @@ def test_fields_have_bounds_and_units_of_their_own(tmp_path):
         grid.GetPointData().GetArray("heat").GetInformation().Set(vtk.vtkDataArray.UNITS_LABEL(), "K")
     paths = [data.write(grid, tmp_path / f"unit_{number}.vtu") for number, grid in enumerate(made)]
     output = tmp_path / "unit.anic"
-    assert _vtk_command.main(["encode", *map(str, paths), "-o", str(output), "-q", "--effort", "1", "--order", "all", "--fields", "heat,phase",
+    assert _vtk_command.main(["encode", *map(str, paths), "-o", str(output), "-q", "--effort", "fast", "--order", "all", "--fields", "heat,phase",
                               "--field-error", "heat=0.0001", "--field-unit", "phase=1"]) == 0
     clip = anicodec.open(output)
     assert {a.name: (a.unit, a.whole) for a in clip.attributes} == {"heat": ("K", False), "phase": ("1", True)}
@@ -112,7 +112,7 @@ def test_as_many_faces_as_vertices_are_told_apart(tmp_path):
 
 def test_all_points_stay_if_asked(tmp_path, steps):
     path = data.write_series(steps, tmp_path / "beam.pvd")
-    encoded = simulations.encode(path, all_points=True, effort=1, fields="heat")
+    encoded = simulations.encode(path, all_points=True, effort="fast", fields="heat")
     clip = anicodec.open(encoded)
     assert clip.vertex_count == steps[0].GetNumberOfPoints() and encoded.notes == []
     assert np.allclose(clip[2], data.points_of(steps[2]), atol=0.01)
@@ -127,7 +127,7 @@ def test_all_points_stay_if_asked(tmp_path, steps):
 @pytest.mark.parametrize("kind", [vtk.VTK_TETRA, vtk.VTK_WEDGE, vtk.VTK_QUADRATIC_TETRA, vtk.VTK_QUADRATIC_HEXAHEDRON, vtk.VTK_TRIANGLE])
 def test_surfaces_of_other_cells(tmp_path, kind):
     made = [data.beam(number, (3, 2, 2), kind=kind) for number in range(3)]
-    clip = anicodec.open(simulations.encode([data.write(grid, tmp_path / f"cell_{n}.vtu") for n, grid in enumerate(made)], effort=1))
+    clip = anicodec.open(simulations.encode([data.write(grid, tmp_path / f"cell_{n}.vtu") for n, grid in enumerate(made)], effort="fast"))
     outer = surface_points(made[0])
     assert np.allclose(clip[2], data.points_of(made[2])[outer], atol=0.01) and len(clip.polygons[0]) > 10
     sizes = np.bincount(np.rint(field(clip, "material", 0)[:, 0]).astype(int), minlength=3)
@@ -142,7 +142,7 @@ def test_cells_of_several_kinds_and_pieces(tmp_path):
         grid.InsertNextCell(kind, len(corners), corners)
     data.put(grid.GetCellData(), "which", np.arange(4))
     path = data.write(grid, tmp_path / "mixed.vtu")
-    encoded = simulations.encode([path, path], order="all", effort=1)
+    encoded = simulations.encode([path, path], order="all", effort="fast")
     clip = anicodec.open(encoded)
     assert sorted(np.diff(clip.polygons[0])) == [3] + [4] * 7 and "1 lines" in encoded.notes[-1]
     assert sorted(field(clip, "which", 0)[:, 0]) == [0] * 6 + [1, 2]
@@ -152,7 +152,7 @@ def test_cells_of_several_kinds_and_pieces(tmp_path):
     writer.SetNumberOfPieces(2)
     writer.SetEndPiece(1)
     writer.Write()
-    pieces = anicodec.open(simulations.encode(tmp_path / "pieces.pvtu", effort=1))
+    pieces = anicodec.open(simulations.encode(tmp_path / "pieces.pvtu", effort="fast"))
     assert np.allclose(pieces[0].max(axis=0), data.points_of(data.beam(1)).max(axis=0), atol=0.02)
 
 
@@ -182,16 +182,16 @@ def test_blocks_are_meshes(tmp_path, steps):
             blocks.SetBlock(index, data.beam(number, (3 + index, 2, 2)))
             blocks.GetMetaData(index).Set(vtk.vtkCompositeDataSet.NAME(), name)
         made.append(data.write(blocks, tmp_path / f"car_{number}.vtm"))
-    clip = anicodec.open(simulations.encode(str(tmp_path / "car_*.vtm"), effort=1))
+    clip = anicodec.open(simulations.encode(str(tmp_path / "car_*.vtm"), effort="fast"))
     assert [mesh.name for mesh in clip.meshes] == ["frame", "wheel"] and len(clip) == 3 and clip.name == "car"
 
 
 def test_a_fixed_mesh_is_moved_by_a_field(tmp_path):
     made = [data.beam(number, moved=False) for number in range(4)]
     paths = [data.write(grid, tmp_path / f"fixed_{number}.vtu") for number, grid in enumerate(made)]
-    told = simulations.encode(paths, effort=1, fields="none")
+    told = simulations.encode(paths, effort="fast", fields="none")
     assert told.notes[0] == "the points never move; --warp (warp=) moves them by a vector field: displacement"
-    clip = anicodec.open(simulations.encode(paths, warp=("displacement", 3), effort=1, fields="none"))
+    clip = anicodec.open(simulations.encode(paths, warp=("displacement", 3), effort="fast", fields="none"))
     outer = surface_points(made[0])
     for frame, grid in enumerate(made):
         points = data.points_of(grid)
@@ -202,7 +202,7 @@ def test_a_fixed_mesh_is_moved_by_a_field(tmp_path):
 
 def test_displacements_of_exodus_are_not_added_twice(tmp_path, steps):
     path = data.write_series([data.beam(number, moved=False) for number in range(3)], tmp_path / "beam.e")
-    moved, twice = (anicodec.open(simulations.encode(path, effort=1, fields="none", **warp)) for warp in ({}, {"warp": ("displacement_", 2)}))
+    moved, twice = (anicodec.open(simulations.encode(path, effort="fast", fields="none", **warp)) for warp in ({}, {"warp": ("displacement_", 2)}))
     rest = moved[0]
     assert np.allclose(twice[2] - rest, 2 * (moved[2] - rest), atol=0.02) and np.abs(moved[2] - rest).max() > 0.5
 
@@ -211,7 +211,7 @@ def test_meshes_that_change_are_segments_if_asked(tmp_path):
     paths = [data.write(data.beam(number, (4 + number // 2, 2, 2)), tmp_path / f"grow_{number}.vtu") for number in range(4)]
     with pytest.raises(anicodec.InputError, match=r"grow_2.vtu: has 54 points, not 45 as the steps before; --topology-changes keep"):
         simulations.encode(paths)
-    clip = anicodec.open(simulations.encode(paths, topology_changes="keep", effort=1))
+    clip = anicodec.open(simulations.encode(paths, topology_changes="keep", effort="fast"))
     assert [[mesh.shown_in(frame) for frame in range(4)] for mesh in clip.meshes] == [[True, True, False, False], [False, False, True, True]]
 
 
@@ -221,9 +221,9 @@ def test_times_come_from_data_and_stay_uneven(tmp_path):
         grid = data.beam(number)
         data.put(grid.GetFieldData(), "TimeValue", np.array([2.0 + number ** 2]))
         paths.append(data.write(grid, tmp_path / f"t_{number}.vtu"))
-    clip = anicodec.open(simulations.encode(paths, effort=1))
+    clip = anicodec.open(simulations.encode(paths, effort="fast"))
     assert clip.info["start_time"] == 2 and [clip.time(frame) for frame in range(4)] == pytest.approx([0, 1, 4, 9])
-    encoded = simulations.encode(paths, effort=1, fps=25)
+    encoded = simulations.encode(paths, effort="fast", fps=25)
     assert anicodec.open(encoded).duration == pytest.approx(3 / 25)
     assert encoded.notes[0] == "the steps' times, 2 to 11, are not kept, as the rate is given"
     with pytest.raises(anicodec.InputError, match=r"t_1.vtu: its time 3 is not after 6, that of the step before"):
@@ -275,13 +275,13 @@ def test_many_steps_lie_in_files(tmp_path):
     data.write(grid.GetOutput(), tmp_path / "same.vtp")
     entries = "".join(f'<DataSet timestep="{number}" file="same.vtp"/>' for number in range(500))
     (tmp_path / "long.pvd").write_text(f"<VTKFile><Collection>{entries}</Collection></VTKFile>")
-    clip = anicodec.open(simulations.encode(tmp_path / "long.pvd", effort=1, fields="none"))
+    clip = anicodec.open(simulations.encode(tmp_path / "long.pvd", effort="fast", fields="none"))
     assert len(clip) == 500 and clip.fps == 1
 
 
 def test_the_command_reads_them(tmp_path, steps, capsys):
     path, output = data.write_series(steps, tmp_path / "beam.pvd"), tmp_path / "beam.anic"
-    told = subprocess.run([sys.executable, "-m", "anicodec", "encode", path, "-o", output, "--effort", "1", "--fields", "heat", "--warp",
+    told = subprocess.run([sys.executable, "-m", "anicodec", "encode", path, "-o", output, "--effort", "fast", "--fields", "heat", "--warp",
                            "displacement:0.5", "--json"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert told.returncode == 0, told.stderr
     assert json.loads(told.stdout)["frames"] == data.STEPS
@@ -308,15 +308,15 @@ def two_meshes(tmp_path_factory):
                 blocks.SetBlock(index, grid)
                 blocks.GetMetaData(index).Set(vtk.vtkCompositeDataSet.NAME(), name)
         made.append(data.write(blocks, folder / f"two_{number}.vtm"))
-    return anicodec.open(simulations.encode(made, fps=5, effort=1, order="all", max_error="0.001%"))
+    return anicodec.open(simulations.encode(made, fps=5, effort="fast", order="all", max_error="0.001%"))
 
 
 @pytest.mark.parametrize("name", OUTPUTS)
 def test_a_clip_becomes_a_series(tmp_path, steps, name):
     """VTK reads the same positions, polygons, fields and times."""
-    clip = anicodec.open(simulations.encode(data.write_series(steps, tmp_path / "beam.pvd"), effort=1, order="all"))
+    clip = anicodec.open(simulations.encode(data.write_series(steps, tmp_path / "beam.pvd"), effort="fast", order="all"))
     assert simulations.decode(clip, tmp_path / name) == []
-    again = anicodec.open(simulations.encode(tmp_path / name, lossless=True, effort=1, order="all"))
+    again = anicodec.open(simulations.encode(tmp_path / name, lossless=True, effort="fast", order="all"))
     assert np.array_equal(again[:], clip[:]) and np.array_equal(again.triangles, clip.triangles)
     parts = {f"stress_{k}" for k in range(6)} if name == "out.xdmf" else {"stress"}  # which XDMF keeps one by one
     assert again.fps == 2 and {a.name for a in again.attributes} == {"displacement", "heat", "phase", "material"} | parts
@@ -327,7 +327,7 @@ def test_a_clip_becomes_a_series(tmp_path, steps, name):
 @pytest.mark.parametrize("name", OUTPUTS)
 def test_meshes_come_and_go_in_a_series(tmp_path, two_meshes, name):
     simulations.decode(two_meshes, tmp_path / name)
-    again = anicodec.open(simulations.encode(tmp_path / name, lossless=True, effort=1, order="all"))
+    again = anicodec.open(simulations.encode(tmp_path / name, lossless=True, effort="fast", order="all"))
     assert [mesh.name for mesh in again.meshes] == ["beam", "guest"] and again.fps == 5
     for mesh, source in zip(again.meshes, two_meshes.meshes):
         shown = [source.shown_in(frame) for frame in range(5)]
@@ -339,7 +339,7 @@ def test_meshes_come_and_go_in_a_series(tmp_path, two_meshes, name):
 def test_hdf_keeps_polygons_once(tmp_path, wave):
     h5py = pytest.importorskip("h5py", reason="h5py is not installed")
     positions, faces = wave
-    clip = anicodec.open(anicodec.encode(positions, faces, effort=1, custom={"rest": positions[0, :, :1], "heat": positions[:, :, 2:]}))
+    clip = anicodec.open(anicodec.encode(positions, faces, effort="fast", custom={"rest": positions[0, :, :1], "heat": positions[:, :, 2:]}))
     simulations.decode(clip, tmp_path / "wave.vtkhdf")
     with h5py.File(tmp_path / "wave.vtkhdf") as file:
         root = file["VTKHDF"]
@@ -354,7 +354,7 @@ def test_origin_colours_and_labels_go_out(tmp_path, wave):
     positions, faces = wave
     far = positions.astype(np.float64) + np.array([4e5, 5e6, 0])
     colours = np.tile(np.linspace(0, 1, 144)[:, None], 3)
-    clip = anicodec.open(anicodec.encode(far, faces, colours=colours, uv=np.zeros((faces.size, 2)), effort=1, order="all",
+    clip = anicodec.open(anicodec.encode(far, faces, colours=colours, uv=np.zeros((faces.size, 2)), effort="fast", order="all",
                                          materials=(["cloth", "hem"], np.arange(len(faces)) % 2)))
     notes = simulations.decode(clip, tmp_path / "far.pvd")
     assert notes == ["not kept: uv of corners, names of materials"]
@@ -370,7 +370,7 @@ def test_origin_colours_and_labels_go_out(tmp_path, wave):
 
 def test_the_command_writes_them(tmp_path, steps, two_meshes, capsys):
     clip = tmp_path / "beam.anic"
-    clip.write_bytes(simulations.encode(data.write_series(steps, tmp_path / "beam.pvd"), effort=1, topology_changes="keep"))
+    clip.write_bytes(simulations.encode(data.write_series(steps, tmp_path / "beam.pvd"), effort="fast", topology_changes="keep"))
     for name in OUTPUTS:
         assert _vtk_command.main(["decode", str(clip), "-o", str(tmp_path / "new" / name)]) == 0
         assert "6 frames of 1 mesh, " in capsys.readouterr().out

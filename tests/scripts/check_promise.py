@@ -68,7 +68,7 @@ class Combination:
             targets += [("--lossless",), ("--size", str(self.chance.randint(500, 20000))),
                         ("--bpfv", f"{self.chance.uniform(1, 60):.4g}")]
         target = list(self.chance.choice(targets))
-        options = target + ["--effort", str(self.chance.choice((1, 1, 2, 3, 5)))]
+        options = target + ["--effort", self.chance.choice(("fast", "fast", "normal"))]
         if self.way == "encode" and target != ["--lossless"] and self.chance.random() < 0.3:
             options += ["--massage", "on"]
         return options

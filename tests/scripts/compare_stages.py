@@ -114,7 +114,7 @@ def distance_of(theirs, ours):
 
 def compare_one(path, folder):
     """Distance from usd-core and from Blender, in per cent of the diagonal."""
-    data = usd.encode(str(path), max_error=f"{ASKED}%", effort=1)
+    data = usd.encode(str(path), max_error=f"{ASKED}%", effort="fast")
     clip = anicodec.open(data)
     layer = folder / (path.stem + ".anic")
     layer.write_bytes(data)

@@ -18,7 +18,7 @@ import time
 # Some of the kills fall where files are renamed: into this last part of a run.
 END = 0.12
 STAGE = ".anicodec-stage-"
-FAST = ("--effort", "1", "-q")
+FAST = ("--effort", "fast", "-q")
 
 
 def run(*command):

@@ -200,5 +200,5 @@ class RandomClip:
         if options[-1:] == ["keyframes"] and len(self.frames) > 3 and chance.random() < 0.3:
             options += ["--interpolation", "msgi"]
         options += chance.choice(([], [], ["--order", "all"]))
-        options += ["--effort", str(chance.choice((1, 1, 2, 3, 5, 7)))]
+        options += ["--effort", chance.choice(("fast", "fast", "normal", "best"))]
         return options

@@ -307,7 +307,7 @@ class GltfFormat:
         animations = gltf.document["animations"]
         fps = {30000 / 1001: "30000/1001", 12.5: "25/2"}.get(rate, str(int(rate)))
         options = ["--clips", "all"] if animations else []
-        arguments = ["encode", "-q", "-f", "--lossless", "--effort", "1", "--order", "vertices", "--fps", fps, file, "-o", encoded]
+        arguments = ["encode", "-q", "-f", "--lossless", "--effort", "fast", "--order", "vertices", "--fps", fps, file, "-o", encoded]
         done = command.run(*arguments, *options)
         if "no animation moves anything" in done.stderr:  # then the pose is that of the first
             done = command.run(*arguments)
@@ -425,7 +425,7 @@ class AbcFormat:
         file, encoded = path.with_suffix(".abc"), path.with_suffix(".anic")
         self.write(random, file, rate)
         archive = self.abc.IArchive(str(file))
-        done = command.run("encode", "-q", "-f", "--lossless", "--effort", "1", file, "-o", encoded)
+        done = command.run("encode", "-q", "-f", "--lossless", "--effort", "fast", file, "-o", encoded)
         if done.returncode:
             if "no frame shows" not in done.stderr:
                 yield done.stderr.strip()
@@ -510,7 +510,7 @@ class FbxFormat:
                                  bake_anim_use_all_actions=False, bake_anim_use_nla_strips=False,
                                  apply_unit_scale=bool(random.integers(2)), global_scale=float(random.choice([1, 0.01])),
                                  use_space_transform=bool(random.integers(2)))
-        done = command.run("encode", "-q", "-f", "--lossless", "--effort", "1", "--order", "vertices",
+        done = command.run("encode", "-q", "-f", "--lossless", "--effort", "fast", "--order", "vertices",
                            "--fps", "30000/1001" if rate[1] != 1 else str(rate[0]), file, "-o", encoded)
         if done.returncode:
             yield done.stderr.strip()
@@ -626,7 +626,7 @@ class UsdFormat:
     def faults(self, random, path, command):
         file, encoded = path.with_suffix(".usda"), path.with_suffix(".anic")
         stage = self.write(random, file)
-        done = subprocess.run([self.package, "-m", "anicodec", "encode", str(file), "-o", str(encoded), "--lossless", "--effort", "1"],
+        done = subprocess.run([self.package, "-m", "anicodec", "encode", str(file), "-o", str(encoded), "--lossless", "--effort", "fast"],
                               capture_output=True, text=True, check=False)
         if done.returncode:
             if "no mesh that is visible" not in done.stderr:
@@ -680,7 +680,7 @@ class ObjFormat:
             files.append(path.with_name(f"frame_{f + 8}.obj"))
             files[-1].write_bytes(self.text(random, random.normal(size=(count, 3)) * scale_of, faces, style).encode())
         encoded = path.with_suffix(".anic")
-        done = command.run("encode", "-q", "-f", "--lossless", "--effort", "1", "--order", "all", path.with_name("frame_*.obj"), "-o", encoded)
+        done = command.run("encode", "-q", "-f", "--lossless", "--effort", "fast", "--order", "all", path.with_name("frame_*.obj"), "-o", encoded)
         if done.returncode:
             yield done.stderr.strip()
             return

@@ -35,8 +35,8 @@ VECTORS = [
     ("quad_box_corrected.anic", "quad_box", "--kg 1 --max-error 0.5% --basis eigentrajectories"),
     ("turned_keyframes.anic", "moebius", "--kg 0.5 --basis keyframes --keyframe-coder draco"),
     ("soup.anic", "soup", "--kg 0.5 --basis eigentrajectories"),
-    ("limb_effort9.anic", "limb", "--kg 0.2 --effort 9 --basis eigenshapes"),
-    ("limb_small.anic", "limb --vertices 100 --frame-count 8", "--kg 0.5 --effort 9 --basis eigenshapes"),
+    ("limb_effort9.anic", "limb", "--kg 0.2 --effort best --basis eigenshapes"),
+    ("limb_small.anic", "limb --vertices 100 --frame-count 8", "--kg 0.5 --effort best --basis eigenshapes"),
     ("far_rigid.anic", "far", "--keyframes 1"),
     ("uneven_times.anic", "uneven", "--kg 0.5 --basis eigentrajectories"),
     ("leftovers.anic", "leftovers", "--kg 0.5 --order all --basis keyframes --keyframe-coder draco"),
@@ -50,7 +50,7 @@ VECTORS = [
     ("exact_moving.anic", "limb --vertices 100 --frame-count 8", "--lossless --root-motion --up z"),
     ("lossless.anic", "limb --vertices 100 --frame-count 8", "--lossless --basis eigenshapes"),
     ("painted_box.anic", "painted_box", "--kg 0.5 --order all --basis keyframes"),
-    ("heated.anic", "heated", "--kg 0.5 --fps 24 --basis eigenshapes --effort 1"),
+    ("heated.anic", "heated", "--kg 0.5 --fps 24 --basis eigenshapes --effort fast"),
 ]
 # Clips whose attributes move: they go by PLY frames.
 MOVING = ["heated"]
@@ -65,10 +65,10 @@ CODES = dict(re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", (ROOT / "spec" / "12-error
 
 # Live streams: clip, frames in a second, which are a file, and options, more of which make a second stream of the same
 # frames that follows: a file with meshes, which are others, in the midst of a stream.
-STREAM = ("streams/live.anic", "limb --vertices 100 --frame-count 20", 8, "--kg 0.5 --effort 2 --key-every 0")
-TWO_BASES = ("streams/two_bases.anic", "limb --vertices 100 --frame-count 14", 8, "--kg 0.5 --effort 2 --key-every 0",
+STREAM = ("streams/live.anic", "limb --vertices 100 --frame-count 20", 8, "--kg 0.5 --effort normal --key-every 0")
+TWO_BASES = ("streams/two_bases.anic", "limb --vertices 100 --frame-count 14", 8, "--kg 0.5 --effort normal --key-every 0",
              "--kg 0.2 --order all --key-every 0")
-LEARNING = ("streams/goes_on.anic", "limb --vertices 100 --frame-count 32", 8, "--kg 0.2 --effort 2 --key-every 3")
+LEARNING = ("streams/goes_on.anic", "limb --vertices 100 --frame-count 32", 8, "--kg 0.2 --effort normal --key-every 3")
 # Rules that only decoders of a part can find broken, by the beginning of their names; a decoder MAY lack it.
 OPTIONAL_RULES = {"attr_": "attributes", "attr_not_announced": "", "look_": "attributes", "attribute_unknown": "attributes",
                   "attribute_component": "attributes", "stream_heated_attr": "attributes", "diff_hash": "exact,hashes",

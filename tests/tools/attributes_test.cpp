@@ -163,7 +163,7 @@ class AttributesThatMove : public testing::Test {
   void SetUp() override {
     ASSERT_EQ(anicodec({"corpus", "heated", "-o", folder_ / "a_%03d.ply"}).status, 0);
     encoded_ = anicodec({"encode", folder_ / "a_*.ply", "-o", folder_ / "a.anic", "--kg", "0.5",
-                         "--effort", "1", "--fps", "24"});
+                         "--effort", "fast", "--fps", "24"});
     ASSERT_EQ(encoded_.status, 0) << encoded_.err;
   }
 
@@ -253,7 +253,7 @@ TEST_F(AttributesThatMove, AreComparedByName) {
 
 TEST_F(AttributesThatMove, HaveTheErrorThatIsAskedFor) {
   const Outcome outcome = anicodec({"encode", folder_ / "a_*.ply", "-o", folder_ / "b.anic", "--kg",
-                                    "0.5", "--effort", "1", "--attribute-error", "2%", "--json"});
+                                    "0.5", "--effort", "fast", "--attribute-error", "2%", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   for (const nlohmann::json& a : outcome.json()["moving_attributes"]) {
     EXPECT_LE(a["max_error"], a["asked"]);
@@ -267,7 +267,7 @@ TEST_F(AttributesThatMove, HaveTheErrorThatIsAskedFor) {
 TEST_F(AttributesThatMove, HaveBoundsAndUnitsByTheirNames) {
   const Outcome encoded =
       anicodec({"encode", folder_ / "a_*.ply", "-o", folder_ / "b.anic", "--kg", "0.5", "--effort",
-                "1", "--json", "--field-error", "temperature=5%", "--field-unit", "temperature=K",
+                "fast", "--json", "--field-error", "temperature=5%", "--field-unit", "temperature=K",
                 "--meta", "author=A"});
   ASSERT_EQ(encoded.status, 0) << encoded.err;
   for (const nlohmann::json& a : encoded.json()["moving_attributes"])
@@ -288,7 +288,7 @@ TEST_F(AttributesThatMove, HaveBoundsAndUnitsByTheirNames) {
 TEST_F(AttributesThatMove, AreChosenByTheirNames) {
   const auto encode = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"encode", folder_ / "a_*.ply", "-o", folder_ / "b.anic", "-f",
-                               "--kg", "0.5", "--effort", "1", "--json"});
+                               "--kg", "0.5", "--effort", "fast", "--json"});
     return anicodec(more);
   };
   EXPECT_EQ(encode({"--fields", "temperature"}).json()["moving_attributes"].size(), 3U);

@@ -89,7 +89,7 @@ export function sceneWithMovingTexture() {
   });
   return withCommand((run, file) => {
     writeFileSync(file('scene.glb'), glb);
-    run('encode', file('scene.glb'), '-o', file('moving.glb'), '--effort', '1');
+    run('encode', file('scene.glb'), '-o', file('moving.glb'), '--effort', 'fast');
     return readFileSync(file('moving.glb'));
   });
 }
@@ -101,7 +101,7 @@ export function clipWithLooks() {
     const lines = readFileSync(file('still.obj'), 'utf8').split('\n'), faces = lines.filter((line) => line.startsWith('f '));
     writeFileSync(file('looks.mtl'), 'newmtl wood\nKd 0.5 0.25 0.125\nd 0.75\nKe 0 0.0625 0\nPr 0.875\nPm 0.25\nnorm wood_normal.png\n');
     writeFileSync(file('looks.obj'), ['mtllib looks.mtl', ...lines.filter((line) => line.startsWith('v ')), 'usemtl wood', ...faces.slice(9), 'usemtl metal', ...faces.slice(0, 9), ''].join('\n'));
-    run('encode', file('looks.obj'), file('still.pc2'), '-o', file('looks.anic'), '--effort', '1');
+    run('encode', file('looks.obj'), file('still.pc2'), '-o', file('looks.anic'), '--effort', 'fast');
     return new Uint8Array(readFileSync(file('looks.anic')));
   });
 }

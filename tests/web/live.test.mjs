@@ -36,7 +36,7 @@ test('pages play a capture three files behind, over a lost file, and join late',
     execFileSync(command, ['corpus', 'limb', '-q', '-o', at('limb.pc2'), '--vertices', '400', '--frame-count', '48']);
     const cache = readFileSync(at('limb.pc2')), vertices = cache.readUInt32LE(16);
     encoder = spawn(command, ['encode', '--live', at('limb.obj'), '--fps', String(FPS), '--piece', String(PIECE), '--key-every', '2',
-      '--effort', '1', '-o', at('take.anic'), '--json'], { stdio: ['pipe', 'pipe', 'inherit'] });
+      '--effort', 'fast', '-o', at('take.anic'), '--json'], { stdio: ['pipe', 'pipe', 'inherit'] });
     server = await serve(filesOf(at('take.anic'), encoder.stdout), { lose: (number) => number === LOST });
     const watch = (body, onOpen) => withPage(async (page, messages) => {
       await page.goto(server.url);

@@ -67,7 +67,7 @@ struct AnalyzeCommand {
   std::string mesh, clip, rate, output;
   std::string counts = "1,2,5,10,15,20,30,45,60,80,100";
   bool csv = false, spaces = false, massage = false, full = false;
-  int effort = 0;  // the default
+  Effort effort = Effort::kNormal;
 };
 
 void print_csv(const std::vector<BasisError>& rows) {
@@ -146,12 +146,10 @@ void run(const AnalyzeCommand& command, const CommonOptions& common) {
   if (!command.rate.empty())
     options.rate = parse_frame_rate(command.rate);
   MeshSequence sequence = load_sequence(command.inputs, options);
-  const bool several = command.full || command.massage;
-  const int effort = command.effort > 0 ? command.effort : several ? 3 : 1;
   std::optional<MassageStudy> massage;
   if (command.massage) {
     try {
-      massage = study_massage(sequence, counts, effort, options.progress);
+      massage = study_massage(sequence, counts, command.effort, options.progress);
     } catch (const Error& e) {
       throw Error(e.kind(), fmt::format("{}: {}", command.inputs[0], e.what()));
     }
@@ -165,7 +163,7 @@ void run(const AnalyzeCommand& command, const CommonOptions& common) {
     return;
   }
   if (output || common.json) {
-    Report report = make_report(sequence, {effort, command.full, counts, options.progress});
+    Report report = make_report(sequence, {command.effort, command.full, counts, options.progress});
     report.massage = std::move(massage);
     if (output) {
       output->write(std::filesystem::path(command.output).extension() == ".svg"
@@ -223,8 +221,7 @@ void add_analyze(Commands& commands, CommonOptions& common) {
   options.option("--counts", c->counts, "K,K,...", "Numbers of components to try");
   options.option("-o,--output", c->output, "REPORT.html|x.svg",
                  "Write a report with charts and pictures");
-  options.number("--effort", c->effort, "N", {1, 9},
-                 "Of the report's encodings, 1 to 9 (default 1; in full 3)");
+  options.choice("--effort", c->effort, {kEfforts}, "Of the report's encodings (default normal)");
   options.flag("--full", c->full, "Report other codecs, key-frames and shape spaces, too");
   options.flag("--spaces", c->spaces, "Principal components of three shape spaces instead");
   options.flag("--massage-study", c->massage, "Measure what Mesh Massage does to the clip instead");

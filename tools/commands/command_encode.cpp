@@ -76,7 +76,7 @@ machine reads the whole clip, and join makes one file of the parts.
 --live encodes a capture while it goes on: INPUT is the mesh, frames of --fps come from the standard
 input. What is written grows by a file every --piece seconds; anic_stream plays one after the other,
 and all commands take them together for one clip, which join -o makes a file that seeks and opens as
-others do. Of --effort, 1 is fast enough for 10,000 vertices.
+others do. --effort fast manages 10,000 vertices.
 
 --batch encodes many clips to the folder -o, -j of them side by side: of a folder every scene or
 stage, every vertex cache with its mesh, and every run of numbered frames, of a list a clip per
@@ -115,7 +115,7 @@ Examples:
   anicodec encode flag.mdd --mesh flag.obj -o flag.anic --size 200k --max-error 1%
   anicodec encode dance.obj dance.pc2 -o dance.anic --keyframes 45
   anicodec encode --batch clips -o encoded -j 4
-  capture | anicodec encode --live body.obj --fps 30 --effort 1 -o take.anic)";
+  capture | anicodec encode --live body.obj --fps 30 --effort fast -o take.anic)";
 
 MeshSequence load(const EncodeArguments& command, const Progress& progress,
                   EncodeOptions* encode_options) {

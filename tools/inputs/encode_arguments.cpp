@@ -199,8 +199,7 @@ void add_method(Options& options, EncodeArguments& a) {
   options.flag("--split-objects", a.split_objects,
                "Store each object of the input as a mesh, present only in the frames that show it "
                "(default: as parts of one mesh)");
-  options.number("--effort", a.effort, "N", {1, 9},
-                 "How long to search, 1 to 9 (default 5); files from 7 on open slower");
+  options.choice("--effort", a.effort, {kEfforts}, "How long to search (default normal)");
   options.flag("--smallest", a.smallest,
                "Make the file as small as can be, however long it takes to open (default: a balance)");
 }
@@ -347,7 +346,7 @@ void add_clip_arguments(Options& options, EncodeArguments& a) {
   add_target(options, a);
   options.group("Method");
   options.choice("--basis", a.basis, {kBases}, "Kind of basis (default auto: the smallest file)");
-  options.number("--effort", a.effort, "N", {1, 9}, "How long to search, 1 to 9 (default 5)");
+  options.choice("--effort", a.effort, {kEfforts}, "How long to search (default normal)");
   add_metadata(options, a);
 }
 

@@ -30,6 +30,8 @@ enum class OrderChoice { kAuto, kVertices, kFree, kAll };
 /// Targets that have a name.
 enum class Quality : uint8_t { kGood, kBetter, kBest };
 
+inline constexpr Word<Effort> kEfforts[] = {{Effort::kFast, "fast"}, {Effort::kNormal, "normal"}, {Effort::kBest, "best"}};
+
 /// The arguments of encode on the command line.
 struct EncodeArguments {
   std::vector<std::string> inputs;
@@ -43,7 +45,7 @@ struct EncodeArguments {
   std::optional<InterpolationChoice> interpolation;
   KeyframePoses keyframe_coder = KeyframePoses::kNative;
   OrderChoice order = OrderChoice::kAuto;
-  int effort = 5;
+  Effort effort = Effort::kNormal;
   bool smallest = false;
   TopologyChanges topology_changes = TopologyChanges::kRefuse;
   bool split_objects = false;

@@ -25,7 +25,7 @@ std::vector<double> component_errors(const MeshSequence& sequence) {
   return errors;
 }
 
-uint64_t size_at(const MeshSequence& sequence, double kg, int effort, const Progress& progress) {
+uint64_t size_at(const MeshSequence& sequence, double kg, Effort effort, const Progress& progress) {
   EncodeOptions options;
   options.target = {ErrorMetric::kKg, kg, false};
   options.effort = effort;
@@ -35,7 +35,7 @@ uint64_t size_at(const MeshSequence& sequence, double kg, int effort, const Prog
 
 }  // namespace
 
-MassageStudy study_massage(const MeshSequence& sequence, std::span<const size_t> counts, int effort,
+MassageStudy study_massage(const MeshSequence& sequence, std::span<const size_t> counts, Effort effort,
                            const Progress& progress) {
   MassageStudy study;
   const MeshSequence massaged = massage(sequence, {}, progress).sequence;

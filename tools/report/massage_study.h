@@ -3,6 +3,7 @@
 #ifndef ANICODEC_TOOLS_REPORT_MASSAGE_STUDY_H_
 #define ANICODEC_TOOLS_REPORT_MASSAGE_STUDY_H_
 
+#include "codec/file/encode_options.h"
 #include "codec/massage/massage_quality.h"
 #include "codec/metrics/hausdorff.h"
 #include "codec/sequence/mesh_sequence.h"
@@ -42,7 +43,7 @@ struct MassageStudy {
 };
 
 /// Cost: a massage and four encodings at this effort.
-MassageStudy study_massage(const MeshSequence& sequence, std::span<const size_t> counts, int effort,
+MassageStudy study_massage(const MeshSequence& sequence, std::span<const size_t> counts, Effort effort,
                            const Progress& progress);
 
 nlohmann::ordered_json massage_json(const MassageStudy& study);

@@ -68,7 +68,7 @@ struct Report {
 };
 
 struct ReportOptions {
-  int effort = 1;
+  Effort effort = Effort::kFast;
   bool full = false;  ///< other codecs, key-frames and shape spaces, too
   std::vector<size_t> counts;  ///< of key-frames and components
   Progress progress;

@@ -95,7 +95,8 @@ class ExportAnic(bpy.types.Operator, ExportHelper):
     error: FloatProperty(name="Largest Error", default=0.05, min=1e-7, precision=5)
     error_unit: EnumProperty(name="Error In", items=[("PERCENT", "Per Cent", "Of the diagonal of the box around all"),
                                                      ("UNITS", "Scene Units", "")])
-    effort: IntProperty(name="Effort", description="How long to search", default=5, min=1, max=9)
+    effort: EnumProperty(name="Effort", description="How long to search", default="normal",
+                         items=[("fast", "Fast", ""), ("normal", "Normal", ""), ("best", "Best", "")])
     segments: BoolProperty(name="Changing Faces", description="Store a mesh for each run of frames with equal faces")
 
     def invoke(self, context, event):

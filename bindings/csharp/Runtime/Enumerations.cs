@@ -30,6 +30,9 @@ namespace Anicodec
     /// <summary>How much of the source's order the file keeps.</summary>
     public enum VertexOrder { Vertices = 0, Free = 1, All = 2 }
 
+    /// <summary>How long to search for a small file.</summary>
+    public enum Effort { Normal = 0, Fast = 1, Best = 2 }
+
     public enum AttributeKind { Uv = 0, Normal = 1, Tangent = 2, Colour = 3, Custom = 4, Material = 5, Part = 6 }
 
     /// <summary>The elements that have a value each.</summary>

@@ -57,8 +57,8 @@ namespace Anicodec
         /// <summary>Largest error of attributes that move.</summary>
         public double AttributeError;
 
-        /// <summary>1 to 9; 1 is fast enough for 10,000 vertices at 30 frames a second; 0 means 5.</summary>
-        public int Effort;
+        /// <summary>Fast is fast enough for 10,000 vertices at 30 frames a second.</summary>
+        public Effort Effort;
 
         public int Threads;
 
@@ -336,7 +336,7 @@ namespace Anicodec
             encode.goal_value = options.GoalValue;
             encode.flags = options.Percent ? Percent : 0;
             encode.attribute_error = options.AttributeError;
-            encode.effort = (uint)options.Effort;
+            encode.effort = options.Effort;
             encode.threads = (uint)options.Threads;
             NativeEncoder.anic_live_options live = default(NativeEncoder.anic_live_options);
             live.struct_size = (UIntPtr)sizeof(NativeEncoder.anic_live_options);

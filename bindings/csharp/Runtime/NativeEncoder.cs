@@ -100,7 +100,8 @@ namespace Anicodec
             public VertexOrder order;
             public double goal_value, max_error;
             public ulong flags, max_bytes;
-            public uint threads, effort;
+            public uint threads;
+            public Effort effort;
             public int basis;
             public uint keyframes;
             public int selection, interpolation, keyframe_coder, massage;

@@ -15,8 +15,8 @@ from .errors import AbsentError, CorruptError, UnsupportedError
 #: Options of the command that the package has under the same names, and their types.
 _OPTIONS: Dict[str, Any] = {
     **dict.fromkeys(("max-error", "rmse", "kg", "displacement", "sted", "quality", "size", "bpfv", "fps", "basis", "order", "unit", "up",
-                     "name", "keyframe-selection", "interpolation", "keyframe-coder", "attribute-error", "massage", "massage-tolerance"), str),
-    **dict.fromkeys(("effort", "keyframes", "uv-bits", "colour-bits", "threads"), int),
+                     "name", "keyframe-selection", "interpolation", "keyframe-coder", "attribute-error", "massage", "massage-tolerance", "effort"), str),
+    **dict.fromkeys(("keyframes", "uv-bits", "colour-bits", "threads"), int),
     **dict.fromkeys(("massage-strength", "store-normals"), float)}
 _SWITCHES = ("no-attributes", "lossless", "loop", "smallest", "root-motion")
 

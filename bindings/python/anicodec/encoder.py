@@ -25,8 +25,9 @@ _CHOICES = {"basis": {"auto": 0, "keyframes": 1, "eigenshapes": 2, "eigentraject
             "interpolation": {"linear": 1, "msgi": 2, "auto": 3},
             "keyframe_coder": {"native": 0, "draco": 1, "auto": 2},
             "massage": {"off": 0, "on": 1, "auto": 2},
+            "effort": {"normal": 0, "fast": 1, "best": 2},
             "order": {"auto": 0, "vertices": 0, "free": 1, "all": 2}}
-_NUMBERS = ("keyframes", "effort", "threads", "max_bytes", "uv_bits", "colour_bits", "massage_strength",
+_NUMBERS = ("keyframes", "threads", "max_bytes", "uv_bits", "colour_bits", "massage_strength",
             "massage_tolerance", "store_normals")
 _FLAGS = {"no_attributes": _NO_ATTRIBUTES, "root_motion": _ROOT_MOTION, "smallest": _SMALLEST}
 _SWITCHES = ("quality", "lossless", "attribute_error", "metadata", *_FLAGS)
@@ -445,7 +446,7 @@ def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = 
     clips: several SourceClip in one file that share what they can; positions have their frames, one after the other.
     basis ("auto", "keyframes", "eigenshapes", "eigentrajectories"), keyframes,
         keyframe_selection ("pivot", "gas", "uniform"), interpolation ("linear", "msgi", "auto"), keyframe_coder ("native",
-        "draco", "auto"), massage ("off", "on", "auto"), massage_strength, massage_tolerance, order ("vertices", the default, "free", "all"), effort (1 to 9),
+        "draco", "auto"), massage ("off", "on", "auto"), massage_strength, massage_tolerance, order ("vertices", the default, "free", "all"), effort ("fast", "normal", "best"),
         smallest (whatever opening takes), uv_bits, colour_bits, attribute_error, store_normals (degrees), no_attributes: as
         of the command.
     threads: 0 for all. max_bytes: of memory, else LimitError.

@@ -154,7 +154,7 @@ def encode_live(faces: Any = None, *, vertex_count: int, fps: Any, piece: float 
     box: the diagonal that errors in per cent are of, scene units; 0: that of the first file's frames, which is smaller than the clip's.
     most_waiting: frames that wait for being encoded at most, at least those of a file; 0: any number, whatever memory they take.
     Other options are those of encode(), without what needs all frames: sizes, key-frames, lossless, massage, root_motion,
-        progress. effort=1 is fast enough for 10,000 vertices at 30 frames a second. origin: "none" or three numbers.
+        progress. effort="fast" is fast enough for 10,000 vertices at 30 frames a second. origin: "none" or three numbers.
 
     Raises InputError, TypeError.
     """

@@ -27,7 +27,7 @@ Bytes encoded(const char* name,
   clip.name = name;
   EncodeOptions options;
   options.target = {ErrorMetric::kKg, 0.5, false};
-  options.effort = 1;
+  options.effort = Effort::kFast;
   options.basis = BasisChoice::kEigenshapes;
   if (change)
     change(options, clip);

@@ -23,7 +23,7 @@ using testing::HasSubstr;
 EncodeOptions options_of(ErrorMetric metric, double value) {
   EncodeOptions options;
   options.target = {metric, value, metric == ErrorMetric::kMaxError};
-  options.effort = 1;
+  options.effort = Effort::kFast;
   return options;
 }
 

@@ -34,7 +34,7 @@ Bytes encoded(const char* name, const FrameRun& part) {
   clip.name = name;
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 1, true};
-  options.effort = 1;
+  options.effort = Effort::kFast;
   options.part = part;
   return encode(clip, options).file;
 }

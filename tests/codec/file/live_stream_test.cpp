@@ -17,7 +17,7 @@ TEST(LiveStream, EndsAnywhereAndRefusesWhatIsNoStream) {
   const MeshSequence clip = corpus::make_clip("limb");
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 0.5, true};
-  options.effort = 1;
+  options.effort = Effort::kFast;
   LiveEncoder encoder(clip, options);
   std::vector<Bytes> files;
   for (int i = 0; i < 2; ++i)

@@ -25,7 +25,7 @@ EncodeOptions coarse(BasisChoice basis = BasisChoice::kEigentrajectories) {
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 0.5, true};
   options.basis = basis;
-  options.effort = 1;
+  options.effort = Effort::kFast;
   return options;
 }
 
@@ -310,7 +310,7 @@ TEST(MovingAttributes, TakeAsManyBytesInSmallUnits) {
   MeshSequence clip = corpus::make_clip("heated");
   clip.attributes.erase(clip.attributes.begin(), clip.attributes.begin() + 2);
   EncodeOptions options = coarse();
-  options.effort = 2;
+  options.effort = Effort::kNormal;
   const auto bytes = static_cast<double>(encode(clip, options).attributes[0].bytes);
   for (float& value : clip.attributes[0].values)
     value *= 1e5F;

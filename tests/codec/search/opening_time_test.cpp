@@ -39,7 +39,7 @@ TEST(OpeningTime, PaysInBytes) {
     EncodeOptions options;
     options.target = {ErrorMetric::kKg, 0.2, false};
     options.basis = BasisChoice::kEigentrajectories;
-    options.effort = 2;
+    options.effort = Effort::kNormal;
     options.smallest = smallest;
     const EncodeResult result = encode(clip, options);
     EXPECT_LE(result.kg, 0.2);

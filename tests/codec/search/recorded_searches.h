@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// Calls of a SearchProgress by real searches, and their times: `encode CLIP --effort 5 -j1` at --kg 0.1 and --max-error 0.05%. The
+// Calls of a SearchProgress by real searches, and their times: `encode CLIP -j1` at --kg 0.1 and --max-error 0.05%. The
 // second kind of basis of horse, and cuts in time of chicken, take longer than those of others, which no one knows before.
 #ifndef ANICODEC_TESTS_CODEC_SEARCH_RECORDED_SEARCHES_H_
 #define ANICODEC_TESTS_CODEC_SEARCH_RECORDED_SEARCHES_H_

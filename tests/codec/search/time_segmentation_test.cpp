@@ -34,7 +34,7 @@ TEST(TimeSegmentation, SegmentsShareAPoseAndPlayInAnyOrder) {
   MeshSequence clip = two_takes();
   EncoderInput input(clip);
   LinearAnalysis analysis(input.frames());
-  LinearCoder whole(input, analysis, BasisKind::kEigentrajectories, 1, 1, true);
+  LinearCoder whole(input, analysis, BasisKind::kEigentrajectories, Effort::kFast, 1, true);
   double rmse = 0.0005 * diagonal(clip);
   std::optional<CodedPart> one = whole.at_rmse(rmse);
   ASSERT_TRUE(one);
@@ -68,7 +68,7 @@ TEST(TimeSegmentation, LeavesOneMotionInOnePiece) {
   MeshSequence clip = corpus::make_clip("limb");
   EncodeOptions options;
   options.target = {ErrorMetric::kKg, 0.1, false};
-  options.effort = 1;
+  options.effort = Effort::kFast;
   Clip opened;
   ASSERT_TRUE(opened.open(encode(clip, options).file).ok());
   EXPECT_EQ(opened.segments().size(), 1U);

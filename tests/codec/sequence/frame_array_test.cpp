@@ -91,7 +91,7 @@ TEST_F(FrameArrayTest, RefusesMoreThanThereIs) {
 
 TEST_F(FrameArrayTest, EncodesTheSameBytesFromFiles) {
   EncodeOptions options;
-  options.effort = 1;
+  options.effort = Effort::kFast;
   options.target = {ErrorMetric::kKg, 0.2, false};
   const MeshSequence clip = corpus::make_scaled("limb", 3000, 40);
   const Bytes in_memory = encode(clip, options).file;

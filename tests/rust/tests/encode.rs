@@ -6,8 +6,8 @@
 use std::ops::ControlFlow;
 
 use anicodec::encode::{
-    AttributeBound, EncodeOptions, Encoder, Goal, LiveOptions, Look, SourceAttribute, SourceClip,
-    SourceMesh,
+    AttributeBound, Effort, EncodeOptions, Encoder, Goal, LiveOptions, Look, SourceAttribute,
+    SourceClip, SourceMesh,
 };
 use anicodec::{read_metadata, AttributeKind, Clip, Domain, Error, Order, Rate, Status, UpAxis};
 
@@ -272,12 +272,12 @@ fn nonsense_is_refused_with_a_line() {
     assert_eq!(status(stop), Status::Cancelled);
     let error = encoder
         .encode(&EncodeOptions {
-            effort: 77,
+            uv_bits: 77,
             ..Default::default()
         })
         .unwrap_err();
     assert!(
-        error.status() == Status::Argument && error.to_string().contains("effort"),
+        error.status() == Status::Argument && error.to_string().contains("UV"),
         "{error}"
     );
     assert!(Encoder::new(&SourceClip {
@@ -317,7 +317,7 @@ fn a_capture_is_encoded_while_it_goes_on() {
         .unwrap();
     let options = EncodeOptions {
         goal: Goal::MaxError(0.01),
-        effort: 1,
+        effort: Effort::Fast,
         ..Default::default()
     };
     let cut = LiveOptions {

@@ -24,7 +24,7 @@ class AddCommand : public testing::Test {
                 0);
     ASSERT_EQ(
         anicodec({"encode", at("walk.obj"), at("walk.pc2"), "-q", "-o", at("hero.anic"), "--fps",
-                  "10", "--kg", "0.5", "--effort", "1", "--event", "left=0.2", "--root-motion"})
+                  "10", "--kg", "0.5", "--effort", "fast", "--event", "left=0.2", "--root-motion"})
             .status,
         0);
   }
@@ -33,7 +33,7 @@ class AddCommand : public testing::Test {
 
   Outcome add(std::vector<std::string> more = {}) {
     more.insert(more.begin(),
-                {"add", at("hero.anic"), at("run.obj"), at("run.pc2"), "--effort", "1"});
+                {"add", at("hero.anic"), at("run.obj"), at("run.pc2"), "--effort", "fast"});
     return anicodec(more);
   }
 

@@ -114,7 +114,7 @@ TEST_F(EncodeCommand, KeepsTheDigitsOfSurveyCoordinates) {
 }
 
 TEST_F(EncodeCommand, GivesEveryBitBackWithoutLoss) {
-  ASSERT_EQ(encode({"--lossless", "--effort", "1"}).status, 0);
+  ASSERT_EQ(encode({"--lossless", "--effort", "fast"}).status, 0);
   const std::string file = folder_ / "a.anic";
   EXPECT_EQ(anicodec({"verify", file}).status, 0);
   ASSERT_EQ(anicodec({"decode", file, "-o", folder_ / "b.pc2", "-q"}).status, 0);
@@ -143,7 +143,7 @@ TEST_F(EncodeCommand, MakesOneFileOfSeveralClips) {
                                             "--kg",
                                             "1",
                                             "--effort",
-                                            "1"};
+                                            "fast"};
   nlohmann::json report = anicodec(encode_all).json();
   ASSERT_EQ(report["clips"].size(), 2U);
   EXPECT_EQ(report["clips"][1]["name"], "b");
@@ -172,7 +172,7 @@ TEST_F(EncodeCommand, MakesOneFileOfSeveralClips) {
 
 TEST_F(EncodeCommand, KeepsEveryKindOfTarget) {
   auto encoded = [&](std::vector<std::string> options, const std::string& file) {
-    options.insert(options.end(), {"--effort", "1", "--json"});
+    options.insert(options.end(), {"--effort", "fast", "--json"});
     return encode(options, file).json();
   };
   EXPECT_LE(encoded({"--kg", "0.5"}, "1.anic")["kg"], 0.5);
@@ -197,7 +197,7 @@ TEST_F(EncodeCommand, KeepsAnErrorOfWhatViewersSee) {
         std::pair{std::vector<std::string>{"--quality", "good"}, 0.05},
         std::pair{std::vector<std::string>{"--quality", "better"}, 0.02},
         std::pair{std::vector<std::string>{"--quality", "best"}, 0.01}}) {
-    std::vector<std::string> with{"--effort", "1", "-f"};
+    std::vector<std::string> with{"--effort", "fast", "-f"};
     with.insert(with.end(), options.begin(), options.end());
     ASSERT_EQ(encode(with).status, 0);
     const std::string file = folder_ / "a.anic";
@@ -282,9 +282,9 @@ TEST_F(EncodeCommand, UsesTheBasisAskedFor) {
 }
 
 TEST_F(EncodeCommand, GivesTheSameBytesForAnyNumberOfThreads) {
-  ASSERT_EQ(encode({"-j1", "--effort", "3"}, "1.anic").status, 0);
-  ASSERT_EQ(encode({"-j2", "--effort", "3"}, "2.anic").status, 0);
-  ASSERT_EQ(encode({"-j2", "--effort", "3"}, "3.anic").status, 0);
+  ASSERT_EQ(encode({"-j1", "--effort", "normal"}, "1.anic").status, 0);
+  ASSERT_EQ(encode({"-j2", "--effort", "normal"}, "2.anic").status, 0);
+  ASSERT_EQ(encode({"-j2", "--effort", "normal"}, "3.anic").status, 0);
   EXPECT_EQ(folder_.read("1.anic"), folder_.read("2.anic"));
   EXPECT_EQ(folder_.read("2.anic"), folder_.read("3.anic"));
 }
@@ -396,7 +396,7 @@ TEST_F(EncodeCommand, NamesAFrameThatDoesNotFit) {
 TEST_F(EncodeCommand, KeepsFramesInFilesWhereTheMemoryIsSmall) {
   write_sequence(folder_ / "big.pc2", corpus::make_wave_grid(8000, 100, 8));
   const auto arguments = [&](const std::string& output) {
-    return std::vector<std::string>{"encode", folder_ / "big.pc2", "--effort", "1",
+    return std::vector<std::string>{"encode", folder_ / "big.pc2", "--effort", "fast",
                                     "-o",     folder_ / output};
   };
   std::vector<std::string> small = arguments("files.anic");
@@ -424,7 +424,7 @@ TEST_F(EncodeCommand, LeavesNothingBehindWhenInterrupted) {
   };
   for (int signal : {SIGINT, SIGTERM}) {
     Outcome outcome = run_program({ANICODEC_COMMAND, "encode", folder_ / "big.pc2", "-o",
-                                   folder_ / "big.anic", "--effort", "9", "-f"},
+                                   folder_ / "big.anic", "--effort", "best", "-f"},
                                   signal, has_begun);
     EXPECT_EQ(outcome.status, 128 + signal) << outcome;
     EXPECT_THAT(folder_.files(), ElementsAre("a.obj", "a.pc2", "big.obj", "big.pc2"));

@@ -62,7 +62,7 @@ TEST(GltfCommand, PutsTheClipIntoTheScene) {
   TemporaryFolder folder;
   write_sequence(folder / "a.glb", gltf_limb());
   const Outcome encoded =
-      anicodec({"encode", folder / "a.glb", "-o", folder / "b.glb", "--json", "--effort", "1"});
+      anicodec({"encode", folder / "a.glb", "-o", folder / "b.glb", "--json", "--effort", "fast"});
   ASSERT_EQ(encoded.status, 0) << encoded;
   EXPECT_EQ(encoded.json()["glb_bytes"], std::filesystem::file_size(folder / "b.glb"));
   EXPECT_EQ(anicodec({"verify", folder / "b.glb"}).status, 0);
@@ -114,7 +114,7 @@ TEST(GltfCommand, AnalyzesAnAnimationAtARate) {
   scene.animate(0, "translation", {0, 2}, scene.vectors({0, 0, 0, 0, 5, 0}), "LINEAR", "long");
   folder.write("a.glb", scene.glb());
   Outcome outcome = anicodec({"analyze", folder / "a.glb", "--clip", "long", "--fps", "10",
-                              "--counts", "1", "--effort", "1", "--json"});
+                              "--counts", "1", "--effort", "fast", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome;
   EXPECT_EQ(outcome.json()["frames"], 21);
   EXPECT_EQ(outcome.json()["frame_rate"], 10);
@@ -181,7 +181,7 @@ TEST(GltfValidator, FindsNothingWrong) {
                                .values = FrameArray(size_t{2} * clip.vertex_count, 0.5F)});
     write_sequence(base + "_one.glb", clip);
     const Outcome moving =
-        anicodec({"encode", base + ".glb", "-o", base + "_moving.glb", "--effort", "1"});
+        anicodec({"encode", base + ".glb", "-o", base + "_moving.glb", "--effort", "fast"});
     EXPECT_EQ(moving.status, 0) << moving;
     arguments.insert(arguments.end(),
                      {base + ".glb", base + "_step.glb", base + "_one.glb", base + "_moving.glb"});
@@ -203,7 +203,7 @@ TEST_P(RealDataGltf, ImportsAndKeepsItsPromise) {
   TemporaryFolder folder;
   const std::string source = real_data_folder() + "/" + GetParam();
   Outcome encoded = anicodec({"encode", source, "-o", folder / "a.anic", "--kg", "1", "--effort",
-                              "1", "--fps", "10", "--order", "vertices", "--json"});
+                              "fast", "--fps", "10", "--order", "vertices", "--json"});
   ASSERT_EQ(encoded.status, 0) << encoded;
   std::vector<std::string> clips;
   const nlohmann::json said = encoded.json();
@@ -287,7 +287,7 @@ TEST_F(RealDataGltf, TakesOtherScenes) {
     TemporaryFolder folder;
     const std::string source = real_data_folder() + "/" + file;
     Outcome encoded = anicodec(
-        {"encode", source, "-o", folder / "a.anic", "--kg", "1", "--effort", "1", "--json"});
+        {"encode", source, "-o", folder / "a.anic", "--kg", "1", "--effort", "fast", "--json"});
     if (encoded.status != 0 && encoded.err.find("this build is without") != std::string::npos)
       GTEST_SKIP() << encoded.err;
     ASSERT_EQ(encoded.status, 0) << encoded;

@@ -278,7 +278,7 @@ TEST(EncodeMassage, RecordsWhatItDid) {
   TemporaryFolder folder;
   write_sequence(folder / "a.pc2", corpus::make_scaled("sliding", 400, 4));
   Outcome outcome = anicodec({"encode", folder / "a.pc2", "-o", folder / "a.anic", "--massage",
-                              "on", "--massage-tolerance", "0.5%", "--effort", "1", "--json"});
+                              "on", "--massage-tolerance", "0.5%", "--effort", "fast", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome;
   EXPECT_TRUE(outcome.json()["massaged"]);
   const nlohmann::json info = anicodec({"info", folder / "a.anic", "--json"}).json();
@@ -292,10 +292,10 @@ TEST(EncodeMassage, TransfersMeshesOfOtherFaces) {
   TemporaryFolder folder;
   write_scans(folder, 3);
   EXPECT_EQ(
-      anicodec({"encode", folder / "scan_*.obj", "-o", folder / "a.anic", "--effort", "1"}).status,
+      anicodec({"encode", folder / "scan_*.obj", "-o", folder / "a.anic", "--effort", "fast"}).status,
       2);
   Outcome outcome = anicodec({"encode", folder / "scan_*.obj", "-o", folder / "a.anic",
-                              "--topology-changes", "transfer", "--effort", "1", "--json"});
+                              "--topology-changes", "transfer", "--effort", "fast", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome;
   EXPECT_EQ(outcome.json()["frames"], 3);
   EXPECT_TRUE(outcome.json()["massaged"]);
@@ -306,7 +306,7 @@ TEST(EncodeMassage, NamesTheFrameThatCannotBeFollowed) {
   write_scans(folder, 2);
   write_inside_out(folder / "scan_2.obj");
   Outcome outcome = anicodec({"encode", folder / "scan_*.obj", "-o", folder / "a.anic",
-                              "--topology-changes", "transfer", "--effort", "1"});
+                              "--topology-changes", "transfer", "--effort", "fast"});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.err, HasSubstr("frame 2 cannot be given the connectivity of frame 0"));
   EXPECT_THAT(outcome.err, HasSubstr("scan_2.obj: "));

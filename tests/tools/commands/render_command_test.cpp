@@ -22,7 +22,7 @@ class RenderCommand : public testing::Test {
   RenderCommand() {
     write_sequence(folder_ / "limb.pc2", corpus::make_clip("limb"));
     anicodec({"encode", folder_ / "limb.obj", folder_ / "limb.pc2", "-o", folder_ / "limb.anic",
-              "--kg", "1", "--effort", "1"});
+              "--kg", "1", "--effort", "fast"});
   }
 
   Outcome render(const std::string& output, std::vector<std::string> options) {

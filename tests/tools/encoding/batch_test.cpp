@@ -33,7 +33,7 @@ class BatchCommand : public testing::Test {
 
   Outcome batch(std::vector<std::string> options = {}) {
     options.insert(options.begin(),
-                   {"encode", "--batch", folder_ / "in", "-o", folder_ / "out", "--effort", "1"});
+                   {"encode", "--batch", folder_ / "in", "-o", folder_ / "out", "--effort", "fast"});
     return anicodec(options);
   }
 

@@ -35,7 +35,7 @@ class LiveCapture : public testing::Test {
   Outcome encode(const std::string& input, const std::string& more = "-o live.anic") {
     return run_program({"sh", "-c",
                         "cd " + at(".") + "; " + input +
-                            " | " ANICODEC_COMMAND " encode --live limb.obj --fps 10 --effort 1 " +
+                            " | " ANICODEC_COMMAND " encode --live limb.obj --fps 10 --effort fast " +
                             more});
   }
 

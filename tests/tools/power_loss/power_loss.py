@@ -22,7 +22,7 @@ import subprocess
 import sys
 import tempfile
 
-FAST = ("--effort", "1", "-q", "-j", "1")
+FAST = ("--effort", "fast", "-q", "-j", "1")
 HIDDEN = ".anicodec"
 JOURNAL = ".anicodec-batch"
 

@@ -22,7 +22,7 @@ TEST(Report, NeedsNothingButABrowser) {
   TemporaryFolder folder;
   write_sequence(folder / "limb.pc2", corpus::make_clip("limb"));
   Outcome outcome = anicodec({"analyze", folder / "limb.obj", folder / "limb.pc2", "--counts",
-                              "2,8", "--effort", "1", "--full", "-o", folder / "r.html", "--json"});
+                              "2,8", "--effort", "fast", "--full", "-o", folder / "r.html", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome;
   std::string page = folder.read("r.html");
   const size_t player = page.find("<iframe");

@@ -198,6 +198,10 @@ pub const ANIC_MASSAGE_OFF: anic_massage = 0;
 pub const ANIC_MASSAGE_ON: anic_massage = 1;
 pub const ANIC_MASSAGE_AUTO: anic_massage = 2;
 pub type anic_massage = i32;
+pub const ANIC_EFFORT_NORMAL: anic_effort = 0;
+pub const ANIC_EFFORT_FAST: anic_effort = 1;
+pub const ANIC_EFFORT_BEST: anic_effort = 2;
+pub type anic_effort = i32;
 pub const ANIC_ENCODE_PERCENT: _bindgen_ty_2 = 1;
 pub const ANIC_ENCODE_CAP_PERCENT: _bindgen_ty_2 = 2;
 pub const ANIC_ENCODE_ERROR_PERCENT: _bindgen_ty_2 = 4;
@@ -256,7 +260,7 @@ pub struct anic_encode_options {
     pub flags: u64,
     pub max_bytes: u64,
     pub threads: u32,
-    pub effort: u32,
+    pub effort: anic_effort,
     pub basis: anic_basis_choice,
     pub keyframes: u32,
     pub selection: anic_selection,

@@ -3,7 +3,7 @@
 //
 // Sends a capture that is being encoded to all pages that watch it, a message of a WebSocket for each file of the stream:
 //
-//   capture | anicodec encode --live body.obj --fps 30 --effort 1 -o take.anic --json | node server.mjs take.anic [PORT]
+//   capture | anicodec encode --live body.obj --fps 30 --effort fast -o take.anic --json | node server.mjs take.anic [PORT]
 //
 // A page that joins late gets the last file with meshes, then all since the last that begins anew. The address is printed.
 import { open, readFile } from 'node:fs/promises';
