@@ -7,7 +7,17 @@ import type { TransformNode } from '@babylonjs/core/Meshes/transformNode.js';
 import type { Scene } from '@babylonjs/core/scene.js';
 import type { Ray } from '@babylonjs/core/Culling/ray.js';
 import type { PickingInfo } from '@babylonjs/core/Collisions/pickingInfo.js';
-import type { Clip, ClipMesh, OpenOptions, SampleOptions, Source } from './index.js';
+import type { Clip, ClipMesh, OpenOptions, SampleOptions, Source, SurfacePoint } from './index.js';
+
+/** What a scene picks, or a point of a mesh of the clip by its number, the first one if it has none. */
+export type AnchorPoint = Pick<PickingInfo, 'pickedMesh' | 'faceId' | 'bu' | 'bv'> | (SurfacePoint & { mesh?: number });
+
+/** A field that is shown, and the values that its colours run between. */
+export interface ShownField {
+  name: string;
+  low: number;
+  high: number;
+}
 
 /** Plays clips by animation groups; what moves is up to those that extend it. */
 export declare class AnicPlayer extends TransformNode {
@@ -25,12 +35,26 @@ export declare class AnicPlayer extends TransformNode {
   play(clip?: string | number, options?: { speed?: number; loop?: boolean }): AnimationGroup;
   /** Shows the time at once; the scene calls it before it renders. */
   refresh(force?: boolean): void;
+  /**
+   * Keeps a node on a point of the surface, for what is held or worn: its y axis is the normal of the triangle, x the tangent along its
+   * first edge. It is disabled while the mesh is not there, and free again without its parent. Costs three vertices a frame. Throws for
+   * a point that is none.
+   */
+  anchor(point: AnchorPoint, node?: TransformNode): TransformNode;
 }
 
 /** Shows a clip: a node with a Mesh for each mesh of the clip that has faces, made on the CPU. dispose() closes the clip. */
 export declare class AnicMesh extends AnicPlayer {
   constructor(clip: Clip, scene: Scene, material?: Material);
   readonly parts: Mesh[];
+  /** Names of the fields of the clip: numbers beside positions, such as temperatures. */
+  readonly fields: string[];
+  /**
+   * Shows a field as colours, from dark blue over green to yellow, in place of the materials; without a name these again. Vectors count
+   * by their length, values of faces by the mean around a vertex; grey is for none. The range is that of 32 frames of the clip that is
+   * shown, unless `low` and `high` say otherwise. Throws if there is no such field.
+   */
+  showField(name?: string, options?: { low?: number; high?: number; material?: Material }): ShownField | undefined;
 }
 
 /** Opens a clip and shows it in a scene. */

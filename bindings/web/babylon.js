@@ -5,9 +5,13 @@
 import { Animation } from '@babylonjs/core/Animations/animation.js';
 import { AnimationGroup } from '@babylonjs/core/Animations/animationGroup.js';
 import { VertexBuffer } from '@babylonjs/core/Buffers/buffer.js';
+import { StandardMaterial } from '@babylonjs/core/Materials/standardMaterial.js';
+import { Color3 } from '@babylonjs/core/Maths/math.color.js';
+import { Quaternion, Vector3 } from '@babylonjs/core/Maths/math.vector.js';
 import { Mesh } from '@babylonjs/core/Meshes/mesh.js';
 import { TransformNode } from '@babylonjs/core/Meshes/transformNode.js';
 import { boundingInfo, giveSurface, turnToScene } from './babylon_surface.js';
+import { fieldNames, fieldOf, writeFieldColours } from './fields.js';
 import { EXTENSION } from './glb.js';
 import { GltfSurface } from './gltf_surface.js';
 import { open } from './index.js';
@@ -23,6 +27,7 @@ export class AnicPlayer extends TransformNode {
   #time = 0;
   #current;
   #options = {};
+  #anchors = [];
 
   /** In a glTF scene, clips begin when they did in the source, as spec/gltf-extension.md says. */
   constructor(name, clip, scene, { inSource = false } = {}) {
@@ -89,11 +94,46 @@ export class AnicPlayer extends TransformNode {
       return;
     this.show(time, options);
     this.#shown = key;
+    this.#anchors = this.#anchors.filter(({ node }) => node.parent && !node.isDisposed());
+    for (const anchor of this.#anchors)
+      this.#place(anchor, time, options);
+  }
+
+  /**
+   * Keeps a node on a point of the surface, as what is held or worn: its y axis is the normal, x the tangent. The point is a PickingInfo, or
+   * a hit of ClipMesh.intersectRay() with the number of the `mesh`. Without its parent, the node is free again.
+   */
+  anchor({ pickedMesh, faceId, bu, bv, mesh = 0, vertices, weights }, node = new TransformNode('anchor', this.getScene())) {
+    if (pickedMesh) {
+      vertices = pickedMesh.getIndices().slice(3 * faceId, 3 * faceId + 3);
+      weights = [bu, bv, 1 - bu - bv];
+    }
+    this.refresh();
+    const { parent, ...place } = this.pointOf({ object: pickedMesh, mesh, vertices }), anchor = { node, place: { ...place, weights } };
+    const { time, options } = sampleOf(this.#moments(), this.#options);
+    this.#place(anchor, time, options);  // throws for a point that is none
+    this.#anchors = [...this.#anchors.filter((one) => one.node !== node), anchor];
+    node.parent = parent;
+    return node;
+  }
+
+  #place({ node, place: { mesh, ...point } }, time, options) {
+    const present = mesh.isPresent(time, options);
+    node.setEnabled(present);
+    if (!present)
+      return;
+    const { position, normal, tangent } = mesh.surfaceFrame(point, time, options), x = Vector3.FromArray(tangent), y = Vector3.FromArray(normal);
+    node.position.copyFromFloats(...position);
+    node.rotationQuaternion = Quaternion.RotationQuaternionFromAxis(x, y, Vector3.Cross(x, y));
+    // Clips are mirrored in a left-handed scene, but not what is on them.
+    node.scaling.z = this.getScene().useRightHandedSystem ? 1 : -1;
   }
 }
 
 /** Shows a clip: a node with a mesh for each mesh of the clip. A clip with z up is turned. */
 export class AnicMesh extends AnicPlayer {
+  #field;
+
   constructor(clip, scene, material) {
     super(clip.info.name || 'anic', clip, scene);
     this.parts = clip.meshes.filter((mesh) => mesh.triangleCount > 0).map((mesh) => this.#part(mesh, material, scene));
@@ -108,17 +148,60 @@ export class AnicMesh extends AnicPlayer {
     return Object.assign(object, { anic: { mesh, colour, positions: new Float32Array(3 * n), normals: new Float32Array(3 * n) } });
   }
 
+  pointOf({ object, mesh, vertices }) {
+    const part = this.parts.find((one) => (object ? one === object : one.anic.mesh.index === mesh));
+    if (!part)
+      throw new Error(`the clip has no faces ${object ? object.name : mesh}`);
+    return { parent: this, mesh: part.anic.mesh, vertices };
+  }
+
+  /** Names of the fields: numbers beside positions, such as temperatures. */
+  get fields() { return fieldNames(this.clip); }
+
+  /**
+   * Shows a field as colours, in place of materials; without a name these again. The range is that of the clip that is shown, unless
+   * `low` and `high` say otherwise. Returns { name, low, high }. Throws if there is no such field.
+   */
+  showField(name, { material, ...range } = {}) {
+    const field = name === undefined ? undefined : fieldOf(this.clip, name, this.clip.find(this.current), range);
+    for (const object of this.parts)
+      this.#paint(object, field, material);
+    this.#field = field;
+    this.refresh(true);
+    return field;
+  }
+
+  #paint(object, field, material) {
+    const { anic } = object, kind = VertexBuffer.ColorKind;
+    anic.own ??= { material: object.material, colours: object.getVerticesData(kind)?.slice(), width: object.getVertexBuffer(kind)?.getSize() };
+    anic.made?.dispose();
+    anic.made = field && !material ? Object.assign(new StandardMaterial('field', this.getScene()), { backFaceCulling: false, twoSidedLighting: true, specularColor: Color3.Black() }) : undefined;
+    object.material = field ? material ?? anic.made : anic.own.material;
+    if (field)
+      object.setVerticesData(kind, anic.paint ??= new Float32Array(4 * anic.mesh.vertexCount).fill(1), true, 4);
+    else if (anic.own.colours)
+      object.setVerticesData(kind, anic.own.colours, anic.colour !== undefined, anic.own.width);
+    else
+      object.removeVerticesData(kind);
+    if (!field)
+      anic.own = undefined;
+  }
+
   show(time, options) {
     for (const object of this.parts) {
-      const { mesh, positions, normals, colour } = object.anic;
+      const { mesh, positions, normals, colour, paint } = object.anic;
       object.isVisible = mesh.isPresent(time, options);
       if (!object.isVisible)
         continue;
       mesh.surfaceAt(time, positions, normals, options);
       object.updateVerticesData(VertexBuffer.PositionKind, positions);
       object.updateVerticesData(VertexBuffer.NormalKind, normals);
-      if (colour)
+      if (this.#field) {
+        writeFieldColours(mesh, this.#field, time, options, paint, { width: 4, space: 'srgb' });
+        object.updateVerticesData(VertexBuffer.ColorKind, paint);
+      } else if (colour) {
         object.updateVerticesData(VertexBuffer.ColorKind, mesh.attribute(colour.index, time, undefined, options));
+      }
     }
   }
 }
@@ -164,6 +247,14 @@ class ScenePlayer extends AnicPlayer {
     this.refresh(true);
     if (moving.bounds)
       object.setBoundingInfo(boundingInfo(moving.bounds));
+  }
+
+  pointOf({ object, mesh, vertices }) {
+    const part = this.#parts.find((one) => (object ? one.object === object : one.mesh === mesh));
+    if (!part)
+      throw new Error(`${EXTENSION}: ${object ? `the clip does not move ${object.name}` : `the clip moves no mesh ${mesh}`}`);
+    const { renderVertices } = this.#surfaces.get(part.mesh);
+    return { parent: part.object, mesh: this.clip.meshes[part.mesh], vertices: object ? Array.from(vertices, (v) => renderVertices[part.firstVertex + v]) : vertices };
   }
 
   show(time, options) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 import type {
-  AnimationAction, AnimationClip, Group, InstancedMesh, Loader, LoadingManager, Material, Mesh, Object3D, Points, WebGLRenderer,
+  AnimationAction, AnimationClip, Group, InstancedMesh, Intersection, Loader, LoadingManager, Material, Mesh, Object3D, Points, WebGLRenderer,
 } from 'three';
-import type { Clip, ClipMesh, OpenOptions, Progress, SampleOptions } from './index.js';
+import type { Clip, ClipMesh, OpenOptions, Progress, SampleOptions, SurfacePoint } from './index.js';
 
 export interface PlayOptions {
   speed?: number;
@@ -20,6 +20,16 @@ export declare class AnicLoader extends Loader<AnicMesh> {
   load(url: string, onLoad?: (mesh: AnicMesh) => void, onProgress?: (progress: Progress) => void, onError?: (error: unknown) => void): void;
   /** The bytes of a file. */
   parseAsync(bytes: ArrayBuffer | ArrayBufferView): Promise<AnicMesh>;
+}
+
+/** A hit of a Raycaster (three.js r166 or later), or a point of a mesh of the clip by its number, the first one if it has none. */
+export type AnchorPoint = Pick<Intersection, 'object' | 'face' | 'barycoord'> | (SurfacePoint & { mesh?: number });
+
+/** A field that is shown, and the values that its colours run between. */
+export interface ShownField {
+  name: string;
+  low: number;
+  high: number;
 }
 
 /** Plays clips by actions of a mixer; what moves is up to those that extend it. */
@@ -44,11 +54,20 @@ export declare class AnicPlayer extends Group {
   play(options: PlayOptions): AnimationAction;
   update(seconds: number): void;
   stop(): void;
+  /**
+   * Keeps a group on a point of the surface, for what is held or worn: its y axis is the normal of the triangle, x the tangent along
+   * its first edge. It is hidden while the mesh is not there, and free again once it is removed from its parent. Costs three vertices a
+   * frame. Throws for a point that is none.
+   */
+  anchor(point: AnchorPoint, group?: Group): Group;
+  /** Closes the clip, once no player shows it any more. */
+  dispose(): void;
 }
 
 /**
  * A plug-in of GLTFLoader for the extension ANIC_mesh_animation: loader.register((parser) => new AnicGLTFExtension(parser)).
  * Clips become animations of the result; `userData.anicPlayers` of the result has an AnicPlayer for each file.
+ * Clones of the scene, as SkeletonUtils makes them, have players and surfaces of their own.
  */
 export declare class AnicGLTFExtension {
   constructor(parser: unknown, options?: OpenOptions);
@@ -62,6 +81,17 @@ export declare class AnicGLTFExtension {
 export declare class AnicMesh extends AnicPlayer {
   constructor(clip: Clip, material?: Material);
   readonly parts: (Mesh | Points)[];
+  /** Names of the fields of the clip: numbers beside positions, such as temperatures. */
+  readonly fields: string[];
+  /**
+   * Shows a field as colours, from dark blue over green to yellow, in place of the materials; without a name these again. Vectors count
+   * by their length, values of faces by the mean around a vertex; grey is for none. The range is that of 32 frames of the clip that is
+   * shown, unless `low` and `high` say otherwise. `material` has to use vertexColors. Throws if there is no such field.
+   */
+  showField(name?: string, options?: { low?: number; high?: number; material?: Material }): ShownField | undefined;
+  /** Another object that shows the same clip at a time of its own, with the same materials, without what was added to this one. */
+  clone(): this;
+  /** Gives memory back: on the graphics card, and in the decoder once no player shows the clip any more. */
   dispose(): void;
 }
 

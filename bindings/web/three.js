@@ -3,9 +3,10 @@
 //
 // Clips in three.js: a loader, and an object that shows a clip at a time.
 import {
-  Box3, BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, FrontSide, Loader, Mesh, MeshStandardMaterial, Points, PointsMaterial, Sphere,
+  Box3, BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, FrontSide, Loader, Mesh, MeshStandardMaterial, Object3D, Points, PointsMaterial, Sphere,
   Vector3,
 } from 'three';
+import { fieldNames, fieldOf, writeFieldColours } from './fields.js';
 import { open } from './index.js';
 import { AnicPlayer } from './three_player.js';
 
@@ -97,6 +98,7 @@ function materialOf({ material: name = '', look }, vertexColors) {
 /** Shows a clip at `time`: a group of one object for each mesh of the clip. */
 export class AnicMesh extends AnicPlayer {
   #parts;
+  #field;
 
   constructor(clip, material) {
     super(clip);
@@ -130,9 +132,60 @@ export class AnicMesh extends AnicPlayer {
     return { mesh, object, moving: attributes.filter(([, a]) => a.moves) };
   }
 
+  /** An object of its own that shows the same clip, without what was added to this one; materials are shared. */
+  clone() {
+    const made = new AnicMesh(this.clip).copy(this, false);
+    made.parts.forEach((part, i) => {
+      Object3D.prototype.copy.call(part, this.parts[i], false);
+      part.material = this.#parts[i].own?.material ?? this.parts[i].material;
+    });
+    made.refresh();
+    return made;
+  }
+
+  pointOf({ object, face, barycoord, mesh = 0, vertices, weights }) {
+    const part = object ? this.#parts.find((one) => one.object === object) : this.#parts[mesh];
+    if (!part)
+      throw new Error(`the clip has no mesh ${object ? object.name : mesh}`);
+    return { parent: this, mesh: part.mesh, vertices: face ? [face.a, face.b, face.c] : vertices, weights: face ? barycoord.toArray() : weights };
+  }
+
+  /** Names of the fields: numbers beside positions, such as temperatures. */
+  get fields() { return fieldNames(this.clip); }
+
+  /**
+   * Shows a field as colours, in place of materials; without a name these again. The range is that of the clip that is shown, unless
+   * `low` and `high` say otherwise. Returns { name, low, high }. Throws if there is no such field.
+   */
+  showField(name, { material, ...range } = {}) {
+    const field = name === undefined ? undefined : fieldOf(this.clip, name, this.clip.find(this.current), range);
+    for (const part of this.#parts)
+      this.#paint(part, field, material);
+    this.#field = field;
+    this.refresh(true);
+    return field;
+  }
+
   /** The objects that show the meshes of the clip. */
   get parts() {
     return this.#parts.map(({ object }) => object);
+  }
+
+  #paint(part, field, material) {
+    const { object, mesh } = part, { geometry } = object;
+    part.own ??= { material: object.material, colour: geometry.attributes.color };
+    part.paint ??= new BufferAttribute(new Float32Array(3 * mesh.vertexCount), 3).setUsage(DynamicDrawUsage);
+    part.made?.dispose();
+    part.made = field && !material ? (object.isPoints ? new PointsMaterial({ vertexColors: true, size: part.own.material.size })
+      : new MeshStandardMaterial({ vertexColors: true, side: DoubleSide })) : undefined;
+    object.material = field ? material ?? part.made : part.own.material;
+    const colour = field ? part.paint : part.own.colour;
+    if (colour)
+      geometry.setAttribute('color', colour);
+    else
+      geometry.deleteAttribute('color');
+    if (!field)
+      part.own = undefined;
   }
 
   show(time, options) {
@@ -146,21 +199,26 @@ export class AnicMesh extends AnicPlayer {
       else
         mesh.positions(time, position.array, options);
       position.needsUpdate = normal.needsUpdate = true;
+      if (this.#field) {
+        writeFieldColours(mesh, this.#field, time, options, object.geometry.attributes.color.array);
+        object.geometry.attributes.color.needsUpdate = true;
+      }
       for (const [name, a] of moving) {
+        if (this.#field && name === 'color')
+          continue;
         mesh.attribute(a.index, time, object.geometry.attributes[name].array, options);
         object.geometry.attributes[name].needsUpdate = true;
       }
     }
   }
 
-  /** Gives memory back, on the graphics card and in the decoder. */
+  /** Gives memory back on the graphics card, and in the decoder if no other object shows the clip. */
   dispose() {
-    this.stop();
-    for (const { object } of this.#parts) {
+    for (const { object, own, made } of this.#parts) {
       object.geometry.dispose();
-      for (const material of [object.material].flat())
+      for (const material of [own?.material ?? object.material, made ?? []].flat())
         material.dispose();
     }
-    this.clip.close();
+    super.dispose();
   }
 }

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Scenes of GLTFLoader whose meshes move by clips.
-import { Box3, BufferAttribute, DynamicDrawUsage, LoaderUtils, Mesh, Sphere, Vector3 } from 'three';
+import { Box3, BufferAttribute, BufferGeometry, DynamicDrawUsage, LoaderUtils, Mesh, Sphere, Vector3 } from 'three';
 import { EXTENSION } from './glb.js';
 import { GltfSurface } from './gltf_surface.js';
 import { open } from './index.js';
@@ -16,15 +16,48 @@ function nameOf(attribute) {
   return kind === 'TEXCOORD' && number < 4 ? `uv${number > 0 ? number : ''}` : attribute.toLowerCase();
 }
 
+/** A geometry with the same attributes, until they are replaced. */
+function sharing(geometry) {
+  const made = new BufferGeometry().setIndex(geometry.index);
+  for (const [name, attribute] of Object.entries(geometry.attributes))
+    made.setAttribute(name, attribute);
+  for (const { start, count, materialIndex } of geometry.groups)
+    made.addGroup(start, count, materialIndex);
+  return made;
+}
+
 /** Moves the meshes of a scene that a clip is for. It is in the scene, and shows nothing itself. */
 class ScenePlayer extends AnicPlayer {
   #surfaces = new Map();
   #parts = [];
+  #file;
+  #cloned = false;
 
-  constructor(clip) {
-    super(clip, { below: true });
+  constructor(clip, file) {
+    super(clip, { below: file > 0 ? `${EXTENSION}_${file}` : EXTENSION });
     this.type = 'AnicScenePlayer';
-    this.name = EXTENSION;
+    this.#file = file;
+  }
+
+  /** Moves the meshes of a scene that is cloned with it: they are marked. */
+  clone() {
+    const made = new ScenePlayer(this.clip, this.#file).copy(this, false);
+    made.#cloned = true;
+    return made;
+  }
+
+  refresh(force) {
+    if (this.#cloned && this.parent) {
+      this.#cloned = false;
+      this.parent.traverse((object) => {
+        const moved = object.userData[EXTENSION];
+        if (!object.isMesh || moved?.file !== this.#file)
+          return;
+        object.geometry = sharing(object.geometry);
+        this.move(object, moved);
+      });
+    }
+    super.refresh(force);
   }
 
   /** Lets a mesh of the scene follow. */
@@ -56,7 +89,16 @@ class ScenePlayer extends AnicPlayer {
       this.refresh();
       Mesh.prototype.raycast.apply(object, args);
     };
+    object.userData[EXTENSION] = { file: this.#file, mesh, firstVertex };
     this.#parts.push({ object, mesh, firstVertex, attributes });
+  }
+
+  pointOf({ object, face, barycoord, mesh = 0, vertices, weights }) {
+    const part = this.#parts.find((one) => (object ? one.object === object : one.mesh === mesh));
+    if (!part)
+      throw new Error(`${EXTENSION}: ${object ? `the clip does not move ${object.name || 'the object'}` : `the clip moves no mesh ${mesh}`}`);
+    const { renderVertices } = this.#surfaces.get(part.mesh), found = { parent: part.object, mesh: this.clip.meshes[part.mesh] };
+    return face ? { ...found, vertices: [face.a, face.b, face.c].map((v) => renderVertices[part.firstVertex + v]), weights: barycoord.toArray() } : { ...found, vertices, weights };
   }
 
   show(time, options) {
@@ -98,7 +140,7 @@ export class AnicGLTFExtension {
     const { json, associations } = this.parser, files = json.extensions?.[EXTENSION]?.files;
     if (!files)
       return;
-    const players = (await Promise.all(files.map((file) => this.#open(file)))).map((clip) => new ScenePlayer(clip));
+    const players = (await Promise.all(files.map((file) => this.#open(file)))).map((clip, i) => new ScenePlayer(clip, i));
     for (const scene of result.scenes) {
       scene.traverse((object) => {
         const { meshes, primitives } = associations.get(object) ?? {};

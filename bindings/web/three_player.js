@@ -2,8 +2,10 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // The state of playing in three.js: which clips of a file, at which times, with which weights.
-import { AnimationClip, AnimationMixer, Group, LoopOnce, LoopRepeat, Matrix4, NumberKeyframeTrack } from 'three';
+import { AnimationClip, AnimationMixer, Group, LoopOnce, LoopRepeat, Matrix4, NumberKeyframeTrack, Vector3 } from 'three';
 import { momentsOf, rootStepOf, sampleOf } from './moments.js';
+
+const users = new WeakMap();  // of clips: how many players show each
 
 /** Plays the clips of a file by actions of a mixer, or shows one at `time`. What it looks like is up to show(). */
 export class AnicPlayer extends Group {
@@ -16,18 +18,21 @@ export class AnicPlayer extends Group {
   #root;
   #before;
   #step = new Matrix4();
+  #anchors = [];
+  #disposed = false;
 
-  /** Below another root of a mixer, its tracks name this object, and start when the clip did in the source. */
-  constructor(clip, { below = false } = {}) {
+  /** `below` another root of a mixer, tracks name this object so, and start when the clip did in the source. */
+  constructor(clip, { below = '' } = {}) {
     super();
     this.clip = clip;
-    const target = below ? this.uuid : '';
+    this.name = below;
+    users.set(clip, (users.get(clip) ?? 0) + 1);
     // A mixer mixes numbers: of each clip its weight, and its time by the weight. Both are 0 while no action plays it.
     this.clipWeights = clip.clips.map(() => 0);
     this.clipTimes = clip.clips.map(() => 0);
     this.animations = clip.clips.map(({ name, loop, duration, loopDuration, startTime }, i) => {
       const length = Math.max(loop ? loopDuration : duration, 1e-6), begin = below ? Math.max(startTime, 0) : 0;
-      const track = (path, ...values) => new NumberKeyframeTrack(`${target}.${path}[${i}]`, [begin, begin + length], values);
+      const track = (path, ...values) => new NumberKeyframeTrack(`${below}.${path}[${i}]`, [begin, begin + length], values);
       return new AnimationClip(name || 'anic', begin + length, [track('clipWeights', 1, 1), track('clipTimes', 0, length)]);
     });
     this.#current = clip.find().index;
@@ -87,11 +92,43 @@ export class AnicPlayer extends Group {
       this.#moveRoot(moments);
     this.show(time, options);
     this.#shown = key;
+    this.#anchors = this.#anchors.filter(({ group }) => group.parent);
+    for (const anchor of this.#anchors)
+      this.#place(anchor, time, options);
   }
 
   updateMatrixWorld(force) {
     this.refresh();
     super.updateMatrixWorld(force);
+  }
+
+  /** The moment that is shown, too. */
+  copy(source, recursive) {
+    super.copy(source, recursive);
+    [this.#time, this.#current, this.#options] = [source.#time, source.#current, source.#options];
+    return this;
+  }
+
+  /**
+   * Keeps a group on a point of the surface, as what is held or worn: its y axis is the normal, x the tangent. The point is a hit of a
+   * Raycaster, or of ClipMesh.intersectRay() with the number of the `mesh`. Removed from its parent, the group is free again.
+   */
+  anchor(point, group = new Group()) {
+    this.refresh();
+    const { parent, ...place } = this.pointOf(point), { time, options } = sampleOf(this.#moments(), this.#options), anchor = { group, place };
+    this.#place(anchor, time, options);  // throws for a point that is none
+    this.#anchors = [...this.#anchors.filter((one) => one.group !== group), anchor];
+    if (group.parent !== parent)
+      parent.add(group);
+    return group;
+  }
+
+  #place({ group, place: { mesh, ...point } }, time, options) {
+    group.visible = mesh.isPresent(time, options);
+    if (!group.visible)
+      return;
+    const { position, normal, tangent } = mesh.surfaceFrame(point, time, options), x = new Vector3(...tangent), y = new Vector3(...normal);
+    new Matrix4().makeBasis(x, y, x.clone().cross(y)).setPosition(...position).decompose(group.position, group.quaternion, group.scale);
   }
 
   /**
@@ -124,5 +161,16 @@ export class AnicPlayer extends Group {
   /** Stops what play() began. */
   stop() {
     this.#mixer?.stopAllAction();
+  }
+
+  /** Closes the clip, if no other player shows it. */
+  dispose() {
+    this.stop();
+    if (this.#disposed)
+      return;
+    this.#disposed = true;
+    users.set(this.clip, users.get(this.clip) - 1);
+    if (users.get(this.clip) === 0)
+      this.clip.close();
   }
 }

@@ -147,6 +147,75 @@ test('Babylon.js shows, plays and fades clips, and plays glTF scenes that move b
   }
 });
 
+test('Babylon.js keeps nodes on points of the surface, and shows fields as colours', { skip }, async () => {
+  const bytes = bytesOf('clips.anic'), server = await serve({ '/page': PAGE, '/moving.glb': movingGlb(bytes, await Anicodec.open(bytes)) });
+  try {
+    await withPage(async (page, messages) => {
+      await page.goto(`${server.url}/page`);
+      const result = await page.evaluate(async () => {
+        const { loadAnic, AnicGLTFExtension } = await import('anicodec/babylon'), B = globalThis.BABYLON;
+        const engine = new B.Engine(document.getElementById('canvas'), false), outcome = { far: [], turned: [], hands: [] }, [a, b] = ['clip of 70', 'clip of 29'];
+        B.GLTF2.registerGLTFExtension('ANIC_mesh_animation', true, (loader) => new AnicGLTFExtension(loader));
+        for (const right of [false, true]) {
+          const scene = new B.Scene(engine);
+          scene.useRightHandedSystem = right;
+          new B.FreeCamera('camera', B.Vector3.Zero(), scene);
+          await B.SceneLoader.AppendAsync('/', 'moving.glb', scene);
+          scene.animationGroups.forEach((group) => group.stop());
+          const shown = await loadAnic('/tests/conformance/clips.anic', scene), player = scene.getNodeByName('ANIC_mesh_animation');
+          for (const [one, object] of [[shown, shown.parts[0]], [player, scene.meshes.find((mesh) => mesh.getTotalVertices() > 0 && mesh !== shown.parts[0])]]) {
+            one.time = 0;
+            scene.render();
+            const corner = (v) => B.Vector3.TransformCoordinates(B.Vector3.FromArray(object.getVerticesData(B.VertexBuffer.PositionKind), 3 * v), object.computeWorldMatrix(true));
+            const corners = () => [...object.getIndices().slice(0, 3)].map(corner), mean = corners().reduce((p, q) => p.add(q)).scale(1 / 3);
+            const [p, q, r] = corners(), outside = B.Vector3.Cross(q.subtract(p), r.subtract(p)).normalize().scale(one.clip.info.diagonal), from = mean.add(outside);
+            const hit = scene.pickWithRay(new B.Ray(from, mean.subtract(from).normalize(), 1e6), (mesh) => mesh === object), node = one.anchor(hit);
+            node.computeWorldMatrix(true);
+            outcome.far.push(B.Vector3.Distance(node.getAbsolutePosition(), hit.pickedPoint) / one.clip.info.diagonal);
+            const face = [...object.getIndices().slice(3 * hit.faceId, 3 * hit.faceId + 3)];
+            for (const [clip, time] of [[a, 0.4], [b, 0.7]]) {
+              Object.assign(one, { current: clip, time });
+              scene.render();
+              const [x, y, z] = face.map(corner), world = node.computeWorldMatrix(true);
+              const at = x.scale(hit.bu).add(y.scale(hit.bv)).add(z.scale(1 - hit.bu - hit.bv));
+              outcome.far.push(B.Vector3.Distance(node.getAbsolutePosition(), at) / one.clip.info.diagonal);
+              const axis = (v) => B.Vector3.TransformNormal(v, world).normalize(), normal = B.Vector3.Cross(y.subtract(x), z.subtract(x)).normalize().scale(right ? 1 : -1);
+              outcome.turned.push(1 - B.Vector3.Dot(axis(B.Vector3.Up()), normal), 1 - B.Vector3.Dot(axis(B.Vector3.Right()), y.subtract(x).normalize()));
+              outcome.hands.push(world.determinant() > 0);
+            }
+            node.parent = null;
+            const before = node.position.clone();
+            one.time = 0.1;
+            scene.render();
+            outcome.hands.push(before.equals(node.position));
+          }
+          scene.dispose();
+        }
+        const scene = new B.Scene(engine), mesh = await loadAnic('/tests/conformance/heated.anic', scene), [part] = mesh.parts, kind = B.VertexBuffer.ColorKind;
+        new B.FreeCamera('camera', B.Vector3.Zero(), scene);
+        const own = [part.material, part.getVerticesData(kind).slice()];
+        mesh.time = 0.5;
+        outcome.field = [mesh.fields, mesh.showField('temperature').name];
+        const [source] = mesh.clip.meshes, values = source.attribute(source.attributes.find(({ name }) => name === 'temperature').index, 0.5), colours = part.getVerticesData(kind);
+        const brightness = (v) => [0.2126, 0.7152, 0.0722].reduce((sum, w, c) => sum + w * colours[4 * v + c] ** 2.2, 0), order = [...values.keys()].sort((x, y) => values[x] - values[y]);
+        outcome.rises = order.every((v, i) => i === 0 || brightness(v) >= brightness(order[i - 1]) - 1e-5) && brightness(order.at(-1)) > brightness(order[0]) + 0.05;
+        scene.render();
+        mesh.showField();
+        mesh.time = 0;
+        mesh.refresh();
+        outcome.back = part.material === own[0] && part.getVerticesData(kind).every((v, i) => Math.abs(v - own[1][i]) < 1e-6);
+        engine.dispose();
+        return outcome;
+      });
+      assert.deepEqual(messages.filter((text) => !/BJS -|Babylon\.js v/.test(text)), []);
+      assert.ok(result.far.length === 12 && result.far.every((far) => far < 1e-3) && result.turned.every((turned) => turned < 1e-3) && result.hands.every(Boolean), JSON.stringify(result));
+      assert.deepEqual([result.field, result.rises, result.back], [[['temperature'], 'temperature'], true, true]);
+    });
+  } finally {
+    server.close();
+  }
+});
+
 test('Babylon.js draws instances by the graphics card as the CPU does', { skip }, async (t) => {
   const server = await serve({ '/page': PAGE });
   let byCard = 0;

@@ -251,6 +251,100 @@ test('GLTFLoader plays scenes whose meshes move by a clip', { skip }, async () =
   assert.ok(result.still);
 });
 
+test('groups stay on points of the surface, in scenes and their clones too', { skip }, async () => {
+  const { result } = await inPage(async () => {
+    const THREE = await import('three'), { GLTFLoader } = await import('three/addons/loaders/GLTFLoader.js'), SkeletonUtils = await import('three/addons/utils/SkeletonUtils.js');
+    const { AnicGLTFExtension, AnicLoader } = await import('anicodec/three'), outcome = { far: [], turned: [] }, [a, b] = ['clip of 70', 'clip of 29'];
+    const load = async () => (await new GLTFLoader().register((parser) => new AnicGLTFExtension(parser)).loadAsync('/moving.glb')).scene;
+    const scene = await load(), copy = SkeletonUtils.clone(scene), playerOf = (root) => root.getObjectByName('ANIC_mesh_animation');
+    const mesh = await new AnicLoader().loadAsync('/tests/conformance/clips.anic');
+    scene.position.set(1, 2, 3);
+    for (const [root, player] of [[mesh, mesh], [scene, playerOf(scene)], [copy, playerOf(copy)]]) {
+      root.updateMatrixWorld(true);
+      const [source] = player.clip.meshes, { position, normal } = source.surfaceFrame({ vertices: source.indices.subarray(0, 3), weights: [0.5, 0.3, 0.2] }, 0);
+      const from = root.localToWorld(new THREE.Vector3(...position).addScaledVector(new THREE.Vector3(...normal), player.clip.info.diagonal));
+      const [hit] = new THREE.Raycaster(from, root.localToWorld(new THREE.Vector3(...position)).sub(from).normalize()).intersectObject(root, true);
+      const group = player.anchor(hit), at = new THREE.Vector3(), { object, face, barycoord } = hit;
+      const far = (point) => outcome.far.push(group.getWorldPosition(at).distanceTo(point) / player.clip.info.diagonal);
+      root.updateMatrixWorld();
+      far(hit.point);
+      for (const [clip, time] of [[a, 0.4], [b, 0.7]]) {
+        Object.assign(player, { current: clip, time });
+        root.updateMatrixWorld();
+        const corners = [face.a, face.b, face.c].map((v) => object.getVertexPosition(v, new THREE.Vector3()).applyMatrix4(object.matrixWorld));
+        far(new THREE.Vector3().addScaledVector(corners[0], barycoord.x).addScaledVector(corners[1], barycoord.y).addScaledVector(corners[2], barycoord.z));
+        const up = new THREE.Triangle(...corners).getNormal(new THREE.Vector3()), [x, y, z] = [0, 1, 2].map((c) => new THREE.Vector3().setFromMatrixColumn(group.matrixWorld, c));
+        outcome.turned.push(up.angleTo(y), x.angleTo(corners[1].sub(corners[0])), z.angleTo(x.clone().cross(y)));
+      }
+    }
+    // Scenes and their clones show moments of their own.
+    playerOf(scene).time = 0;
+    copy.updateMatrixWorld();
+    scene.updateMatrixWorld();
+    const shown = (root) => root.getObjectByName('shown').geometry.attributes;
+    outcome.apart = shown(copy).position !== shown(scene).position && shown(copy).position.array.some((v, i) => v !== shown(scene).position.array[i]);
+    // A mixer on a clone.
+    const mixer = new THREE.AnimationMixer(copy);
+    mixer.clipAction(playerOf(copy).animations.find(({ name }) => name === b)).play();
+    mixer.setTime(playerOf(copy).clip.find(b).startTime + 0.5);
+    outcome.played = [playerOf(copy).current, Math.round(1000 * playerOf(copy).time)];
+    // Objects of one clip close it with the last.
+    const second = mesh.clone(), group = mesh.anchor({ vertices: [0, 1, 2], weights: [1, 0, 0] });
+    outcome.parent = group.parent === mesh;
+    try {
+      mesh.anchor({ vertices: [0, 1, 1e6], weights: [1, 0, 0] });
+    } catch ({ status }) {
+      outcome.refused = status;
+    }
+    group.removeFromParent();
+    mesh.time = 0.1;
+    mesh.refresh();
+    outcome.groups = mesh.children.length - mesh.parts.length;
+    mesh.dispose();
+    mesh.dispose();
+    outcome.closed = [second.clip.closed];
+    second.dispose();
+    outcome.closed.push(second.clip.closed);
+    return outcome;
+  });
+  assert.ok(result.far.length === 9 && result.far.every((far) => far < 1e-3) && result.turned.every((turned) => turned < 0.01), JSON.stringify(result));
+  assert.deepEqual({ ...result, far: 0, turned: 0 },
+    { far: 0, turned: 0, apart: true, played: ['clip of 29', 500], parent: true, refused: 'ANIC_E_ARGUMENT', groups: 1, closed: [false, true] });
+});
+
+test('three.js shows fields as colours', { skip }, async () => {
+  const { result } = await inPage(async () => {
+    const THREE = await import('three'), { AnicLoader } = await import('anicodec/three'), outcome = {};
+    const load = (name) => new AnicLoader().loadAsync(`/tests/conformance/${name}`), mesh = await load('heated.anic'), { geometry } = mesh.parts[0];
+    outcome.fields = mesh.fields;
+    const own = { colour: geometry.attributes.color, material: mesh.parts[0].material };
+    mesh.time = 0.5;
+    const field = mesh.showField('temperature'), [part] = mesh.parts, [source] = mesh.clip.meshes;
+    // Brighter as the value grows, and the range holds.
+    const values = source.attribute(source.attributes.find(({ name }) => name === 'temperature').index, 0.5);
+    const brightness = (v) => [0.2126, 0.7152, 0.0722].reduce((sum, w, c) => sum + w * part.geometry.attributes.color.getComponent(v, c), 0);
+    const order = [...values.keys()].sort((p, q) => values[p] - values[q]);
+    outcome.rises = order.every((v, i) => i === 0 || brightness(v) >= brightness(order[i - 1]) - 1e-6) && brightness(order.at(-1)) > brightness(order[0]) + 0.05;
+    outcome.within = values.every((v) => v >= field.low - 0.2 * (field.high - field.low) && v <= field.high + 0.2 * (field.high - field.low));
+    outcome.vertexColours = part.material.vertexColors && part.material !== own.material;
+    const material = new THREE.MeshBasicMaterial({ vertexColors: true });
+    outcome.given = mesh.showField('temperature', { low: -1e6, high: 1e6, material }).high === 1e6 && part.material === material;
+    outcome.middle = new Set(part.geometry.attributes.color.array).size < 12;
+    mesh.showField();
+    outcome.back = part.material === own.material && part.geometry.attributes.color === own.colour;
+    try {
+      mesh.showField('pressure');
+    } catch ({ message }) {
+      outcome.refused = message;
+    }
+    const faces = await load('domains.anic');
+    outcome.cells = [faces.showField('cells').name, new Set(faces.parts[0].geometry.attributes.color.array).size > 10];
+    return outcome;
+  });
+  assert.deepEqual(result, { fields: ['temperature'], rises: true, within: true, vertexColours: true, given: true, middle: true, back: true,
+    refused: 'there is no field pressure, but temperature', cells: ['cells', true] });
+});
+
 test('texture coordinates and colours of a scene move', { skip: skip || (texture ? false : 'ANICODEC_COMMAND names no command') }, async () => {
   const { result } = await inPage(async () => {
     const { GLTFLoader } = await import('three/addons/loaders/GLTFLoader.js'), { AnicGLTFExtension } = await import('anicodec/three');

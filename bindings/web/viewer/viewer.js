@@ -6,7 +6,7 @@ import { clipInGlb } from '../glb.js';
 import { open, readMetadata } from '../index.js';
 import { provideModule } from '../module.js';
 import { MEANINGS, chunkSizes } from './chunks.js';
-import { fieldColour, fieldNames, gradient, rangeOf, sharesOf } from './fields.js';
+import { fieldColour, fieldNames, gradient, rangeOf, sharesOf } from '../fields.js';
 import { ClipView, Orbit, SurfaceView, errorColour } from './surface_view.js';
 
 const SPEEDS = [-1, 0.1, 0.25, 0.5, 1, 2, 4];
@@ -101,7 +101,7 @@ function paint() {
       return;
     }
     const { index } = shown(one.clip), options = { clip: index, wrap: state.loop ? 'loop' : 'clamp' };
-    one.colour(state.field && sharesOf(one.clip, state.field.name, state.field, state.time, options), fieldColour);
+    one.colour(state.field && sharesOf(one.clip, state.field, state.time, options), fieldColour);
   });
 }
 

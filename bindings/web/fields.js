@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Numbers beside the positions of a clip, such as temperatures, as colours: one of vertex, corner or face.
+import { AnicError } from './status.js';
 
 /** From dark blue over green to yellow, brighter as the value grows; red, green, blue of sRGB. */
 const STOPS = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
@@ -55,7 +56,37 @@ export function rangeOf(clip, name, { index, frames, duration }) {
   return low <= high ? { low, high } : undefined;
 }
 
-/** Of each mesh, its values as shares of a range. */
-export function sharesOf(clip, name, { low, high }, time, options) {
-  return clip.meshes.map((mesh) => valuesOf(mesh, name, time, options)?.map((value) => Math.min(Math.max((value - low) / (high - low || 1), 0), 1)));
+/** Values of a field at the vertices of a mesh, as shares of its range; undefined: it has none then. */
+function sharesAt(mesh, { name, low, high }, time, options) {
+  return valuesOf(mesh, name, time, options)?.map((value) => Math.min(Math.max((value - low) / (high - low || 1), 0), 1));
+}
+
+/** The same of each mesh of a clip. */
+export const sharesOf = (clip, field, time, options) => clip.meshes.map((mesh) => sharesAt(mesh, field, time, options));
+
+const STEPS = 1024;  // of a table, finer than screens; one more is of no value
+const POWERS = { linear: 1, srgb: 1 / 2.2 }, tables = {};
+
+function tableOf(space) {
+  tables[space] ??= Float32Array.from({ length: 3 * (STEPS + 2) }, (_, i) => fieldColour(i < 3 * (STEPS + 1) ? Math.floor(i / 3) / STEPS : NaN)[i % 3] ** POWERS[space]);
+  return tables[space];
+}
+
+/** A field of a clip with its range: of all frames of one of the file's clips, or a given one. Throws if there is none. */
+export function fieldOf(clip, name, current, range = {}) {
+  const names = fieldNames(clip);
+  if (!names.includes(name))
+    throw new AnicError('ANIC_E_ABSENT', `there is no field ${name}, but ${names.join(', ') || 'none'}`);
+  return { name, low: 0, high: 1, ...(range.low === undefined || range.high === undefined ? rangeOf(clip, name, current) : {}), ...range };
+}
+
+/** Writes the colours of a field at the vertices of a mesh, the first three of `width` numbers for each; grey where it has none. */
+export function writeFieldColours(mesh, field, time, options, out, { width = 3, space = 'linear' } = {}) {
+  const shares = sharesAt(mesh, field, time, options), table = tableOf(space);
+  for (let vertex = 0; vertex < mesh.vertexCount; ++vertex) {
+    const share = shares?.[vertex] ?? NaN, from = 3 * (share >= 0 ? Math.round(share * STEPS) : STEPS + 1), to = width * vertex;
+    out[to] = table[from];
+    out[to + 1] = table[from + 1];
+    out[to + 2] = table[from + 2];
+  }
 }
