@@ -38,7 +38,7 @@ install_web_packages() {
   # With the clang that emscripten needs.
   install_optional libclang-rt-14-dev || say "No sanitizers of clang: GCC compiles the sanitized readers"
   local folder
-  for folder in bindings/web tests/web tests/web/babylon tests/web/vite; do
+  for folder in bindings/web tests/web tests/web/babylon tests/web/vite tests/web/pages; do
     [[ -d $folder/node_modules ]] || timeout 120 npm ci --prefix "$folder" --no-audit --no-fund ||
       say "$folder lacks packages of npm: its tests are skipped"
   done

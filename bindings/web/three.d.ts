@@ -3,7 +3,7 @@
 import type {
   AnimationAction, AnimationClip, Group, InstancedMesh, Intersection, Loader, LoadingManager, Material, Mesh, Object3D, Points, WebGLRenderer,
 } from 'three';
-import type { Clip, ClipMesh, OpenOptions, Progress, SampleOptions, SurfacePoint } from './index.js';
+import type { Clip, ClipMesh, OpenOptions, SampleOptions, SurfacePoint } from './index.js';
 
 export interface PlayOptions {
   speed?: number;
@@ -17,7 +17,8 @@ export declare class AnicLoader extends Loader<AnicMesh> {
   constructor(manager?: LoadingManager);
   /** Options of Anicodec.open(). */
   setOptions(options: OpenOptions): this;
-  load(url: string, onLoad?: (mesh: AnicMesh) => void, onProgress?: (progress: Progress) => void, onError?: (error: unknown) => void): void;
+  /** `progress` is a Progress, which the type of its base class has no room for. */
+  load(url: string, onLoad?: (mesh: AnicMesh) => void, onProgress?: (progress: any) => void, onError?: (error: unknown) => void): void;
   /** The bytes of a file. */
   parseAsync(bytes: ArrayBuffer | ArrayBufferView): Promise<AnicMesh>;
 }

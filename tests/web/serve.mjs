@@ -20,7 +20,7 @@ export async function serve(pages = {}) {
     const { pathname } = new URL(request.url, 'http://localhost');
     try {
       const body = pages[pathname] ?? await readFile(root + decodeURIComponent(pathname).replaceAll('..', ''));
-      response.writeHead(200, { 'content-type': pages[pathname] ? 'text/html' : TYPES[extname(pathname)] ?? 'application/octet-stream' });
+      response.writeHead(200, { 'content-type': pages[pathname] && !extname(pathname) ? 'text/html' : TYPES[extname(pathname)] ?? 'application/octet-stream' });
       response.end(body);
     } catch {
       response.writeHead(404).end();

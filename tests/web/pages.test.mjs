@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// anicodec/react in Chromium, and the examples of pages. `npm ci --prefix tests/web/pages` installs what they are for.
+import assert from 'node:assert/strict';
+import { existsSync, readFileSync } from 'node:fs';
+import { after, before, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { bytesOf } from './files.mjs';
+import { CHROMIUM, launch, serve, withPage } from './serve.mjs';
+
+const here = (path) => fileURLToPath(new URL(path, import.meta.url));
+const installed = existsSync(here('pages/node_modules/react'));
+const skip = !CHROMIUM ? 'there is no Chromium' : installed ? false : 'there is no React: npm ci --prefix tests/web/pages';
+const WEB = here('../../bindings/web'), EXAMPLES = `${WEB}/examples`;
+let server, browser;
+
+/** One script of a module in JSX and all that it imports. */
+async function bundle(options) {
+  const { build } = await import('../../bindings/web/node_modules/esbuild/lib/main.js');
+  const { outputFiles: [script] } = await build({
+    bundle: true, format: 'esm', target: 'es2022', jsx: 'automatic', write: false, external: ['node:fs/promises'], define: { 'process.env.NODE_ENV': '"production"' },
+    alias: { 'anicodec/react': `${WEB}/react.js`, three: here('node_modules/three') }, nodePaths: [here('pages/node_modules')], ...options,
+  });
+  return script.text;
+}
+
+// Whatever a test changes, it changes by show(props).
+const APP = `
+import { Component, StrictMode, Suspense, useState } from 'react';
+import { createRoot } from 'react-dom/client';
+import { Canvas } from '@react-three/fiber';
+import { Anic, AnicAnchor, useAnic } from 'anicodec/react';
+class Problem extends Component {
+  state = {};
+  static getDerivedStateFromError({ message }) { globalThis.problem = message; return { message }; }
+  render() { return this.state.message ? null : this.props.children; }
+}
+function App() {
+  const [props, show] = useState({ src: '/tests/conformance/clips.anic' });
+  globalThis.show = (more) => show((before) => ({ ...before, ...more }));
+  const { shown = true, point, ...rest } = props;
+  return <Suspense fallback={null}>
+    {shown && <Anic ref={(mesh) => { globalThis.mesh = mesh; }} {...rest}>
+      {point && <AnicAnchor point={point} position={[0, 1, 0]}><mesh ref={(pin) => { globalThis.pin = pin; }}><boxGeometry /></mesh></AnicAnchor>}
+    </Anic>}
+    <Anic ref={(mesh) => { globalThis.other = mesh; }} src="/tests/conformance/clips.anic" time={0.5} clip="clip of 29" />
+  </Suspense>;
+}
+globalThis.clear = () => useAnic.clear('/tests/conformance/clips.anic');
+createRoot(document.getElementById('root')).render(<StrictMode><Canvas frameloop="demand"><Problem><App /></Problem></Canvas></StrictMode>);
+`;
+const paged = (script) => `<!doctype html><link rel=icon href="data:,"><style>html,body,#root{height:100%;margin:0}</style><div id=root></div><script type=module src="${script}"></script>`;
+
+before(async () => {
+  if (skip)
+    return;
+  browser = await launch();
+  const [app, example] = await Promise.all([
+    bundle({ stdin: { contents: APP, loader: 'jsx', resolveDir: here('.') } }), bundle({ entryPoints: [`${EXAMPLES}/react/main.jsx`] }),
+  ]);
+  // Scripts lie where the package finds its worker and its modules.
+  server = await serve({ '/app': paged('/bindings/web/app.js'), '/bindings/web/app.js': app, '/bindings/web/main.js': example,
+    '/react': readFileSync(`${EXAMPLES}/react/index.html`, 'utf8').replace('/main.jsx', '/bindings/web/main.js'), '/dancer.anic': bytesOf('limb_small.anic') });
+});
+after(() => {
+  server?.close();
+  return browser?.close();
+});
+
+// Fiber's own use of THREE.Clock.
+const unexpected = (messages) => messages.filter((text) => !text.includes('THREE.Clock'));
+
+test('a component of React plays a clip as its props say', { skip }, async () => {
+  await withPage(async (page, messages) => {
+    await page.goto(`${server.url}/app`);
+    await page.waitForFunction(() => globalThis.mesh?.time > 0);
+    const result = await page.evaluate(async () => {
+      const next = () => new Promise((done) => { requestAnimationFrame(() => requestAnimationFrame(done)); }), steps = {};
+      const far = (p, q) => p.reduce((most, v, i) => Math.max(most, Math.abs(v - q[i])), 0), { mesh, other, show } = globalThis, { clip } = mesh;
+      const shown = (object) => object.parts[0].geometry.attributes.position.array, wait = (ms) => new Promise((done) => { setTimeout(done, ms); });
+      const outcome = { steps, apart: mesh !== other && mesh.clip === other.clip };
+      steps.other = far(shown(other), clip.positions(0.5, undefined, { clip: 'clip of 29' }));
+      show({ clip: 'clip of 29', fade: 0.1 });
+      await wait(300);
+      outcome.clip = mesh.current;
+      show({ playing: false });
+      await next();
+      const time = mesh.time;
+      await wait(100);
+      outcome.stands = mesh.time === time;
+      show({ time: 0.25, clip: 'clip of 70', castShadow: true });
+      await next();
+      steps.time = far(shown(mesh), clip.positions(0.25, undefined, { clip: 'clip of 70' }));
+      outcome.shadow = mesh.parts[0].castShadow;
+      show({ point: { vertices: [0, 1, 2], weights: [0.5, 0.25, 0.25] } });
+      await next();
+      const frame = (at) => { const { position, normal } = mesh.clip.meshes[0].surfaceFrame({ vertices: [0, 1, 2], weights: [0.5, 0.25, 0.25] }, at, { clip: 'clip of 70' }); return position.map((x, c) => x + normal[c]); };
+      const pinned = () => { mesh.updateMatrixWorld(); return mesh.worldToLocal(globalThis.pin.getWorldPosition(globalThis.pin.position.clone())).toArray(); };
+      steps.pinned = far(pinned(), frame(0.25));
+      show({ time: 0.5 });
+      await next();
+      steps.follows = far(pinned(), frame(0.5));
+      show({ src: '/tests/conformance/heated.anic', point: undefined, clip: undefined, field: 'temperature', low: 0, high: 100 });
+      for (let tries = 0; tries < 100 && [mesh, null].includes(globalThis.mesh); ++tries)
+        await wait(20);
+      await next();
+      const heated = globalThis.mesh, { color } = heated.parts[0].geometry.attributes;
+      outcome.colours = [heated !== mesh, new Set(color.array).size > 10];
+      show({ field: undefined });
+      await next();
+      outcome.own = heated.parts[0].geometry.attributes.color === color;
+      show({ shown: false });
+      await next();
+      outcome.open = [heated.clip.closed, other.clip.closed];
+      show({ shown: true, src: '/tests/conformance/absent.anic' });
+      for (let tries = 0; tries < 100 && !globalThis.problem; ++tries)
+        await wait(20);
+      outcome.problem = globalThis.problem;
+      return outcome;
+    });
+    assert.ok(Object.values(result.steps).every((distance) => distance < 1e-3), JSON.stringify(result));
+    const { apart, clip, stands, shadow, colours, own, open } = result;
+    assert.deepEqual({ apart, clip, stands, shadow, colours, own, open },
+      { apart: true, clip: 'clip of 29', stands: true, shadow: true, colours: [true, true], own: false, open: [false, false] });
+    assert.match(result.problem, /absent\.anic/);
+    assert.deepEqual(unexpected(messages).filter((text) => !/404|absent\.anic/.test(text)), []);
+  }, { browser });
+});
+
+test('the example for React shows two dancers, and keeps a ball on one', { skip }, async () => {
+  await withPage(async (page, messages) => {
+    await page.goto(`${server.url}/react`);
+    await page.waitForSelector('canvas');
+    const red = async () => {
+      const png = (await page.screenshot()).toString('base64');
+      return page.evaluate(async (data) => {
+        const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob()), canvas = new OffscreenCanvas(bitmap.width, bitmap.height), context = canvas.getContext('2d');
+        context.drawImage(bitmap, 0, 0);
+        const seen = { red: [], lit: [] };
+        context.getImageData(0, 0, bitmap.width, bitmap.height).data.forEach((v, i, all) => {
+          if (i % 4 === 0 && v > 60)
+            seen[all[i + 1] < v / 2 ? 'red' : 'lit'].push([(i / 4) % bitmap.width, Math.floor(i / 4 / bitmap.width)]);
+        });
+        return seen;
+      }, png);
+    };
+    let seen;
+    for (let tries = 0; tries < 50; ++tries) {
+      seen = await red();
+      if (seen.lit.length > 100)
+        break;
+    }
+    assert.ok(seen.lit.length > 100 && seen.red.length === 0, `${seen.lit.length} ${seen.red.length}`);
+    const [x, y] = seen.lit[seen.lit.length >> 1];
+    await page.mouse.click(x, y);
+    for (let tries = 0; tries < 50 && seen.red.length === 0; ++tries)
+      seen = await red();
+    assert.ok(seen.red.length > 4);
+    assert.deepEqual(unexpected(messages), []);
+  }, { browser });
+});
