@@ -6,13 +6,15 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { bytesOf } from './files.mjs';
+import { Anicodec } from '../../bindings/web/index.js';
+import { bytesOf, clipWithLooks, movingGlb } from './files.mjs';
 import { CHROMIUM, launch, serve, withPage } from './serve.mjs';
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
-const installed = existsSync(here('pages/node_modules/react'));
-const skip = !CHROMIUM ? 'there is no Chromium' : installed ? false : 'there is no React: npm ci --prefix tests/web/pages';
+const installed = existsSync(here('pages/node_modules/playcanvas'));
+const skip = !CHROMIUM ? 'there is no Chromium' : installed ? false : 'there is no React or PlayCanvas: npm ci --prefix tests/web/pages';
 const WEB = here('../../bindings/web'), EXAMPLES = `${WEB}/examples`;
+const looks = clipWithLooks();
 let server, browser;
 
 /** One script of a module in JSX and all that it imports. */
@@ -59,14 +61,34 @@ before(async () => {
   const [app, example] = await Promise.all([
     bundle({ stdin: { contents: APP, loader: 'jsx', resolveDir: here('.') } }), bundle({ entryPoints: [`${EXAMPLES}/react/main.jsx`] }),
   ]);
+  const limb = bytesOf('limb_small.anic'), model = movingGlb(limb, await Anicodec.open(limb));
   // Scripts lie where the package finds its worker and its modules.
-  server = await serve({ '/app': paged('/bindings/web/app.js'), '/bindings/web/app.js': app, '/bindings/web/main.js': example,
-    '/react': readFileSync(`${EXAMPLES}/react/index.html`, 'utf8').replace('/main.jsx', '/bindings/web/main.js'), '/dancer.anic': bytesOf('limb_small.anic') });
+  const folders = [
+    ['/pages/node_modules/anicodec/', 'bindings/web/'], ['/pages/node_modules/three/', 'tests/web/node_modules/three/'], ['/pages/node_modules/', 'tests/web/pages/node_modules/'], ['/pages/', 'bindings/web/examples/pages/'],
+  ];
+  server = await serve({ '/pages/model.glb': model, '/pages/dancer.anic': limb, ...(looks ? { '/looks.anic': looks } : {}),
+    '/app': paged('/bindings/web/app.js'), '/bindings/web/app.js': app, '/bindings/web/main.js': example,
+    '/react': readFileSync(`${EXAMPLES}/react/index.html`, 'utf8').replace('/main.jsx', '/bindings/web/main.js'), '/dancer.anic': limb }, folders);
 });
 after(() => {
   server?.close();
   return browser?.close();
 });
+
+/** Pixels of a page that are lit, and those of them that are red, as [x, y]. */
+async function pixels(page) {
+  const png = (await page.screenshot()).toString('base64');
+  return page.evaluate(async (data) => {
+    const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob()), canvas = new OffscreenCanvas(bitmap.width, bitmap.height), context = canvas.getContext('2d');
+    context.drawImage(bitmap, 0, 0);
+    const seen = { red: [], lit: [] };
+    context.getImageData(0, 0, bitmap.width, bitmap.height).data.forEach((v, i, all) => {
+      if (i % 4 === 0 && v > 60)
+        seen[all[i + 1] < v / 2 ? 'red' : 'lit'].push([(i / 4) % bitmap.width, Math.floor(i / 4 / bitmap.width)]);
+    });
+    return seen;
+  }, png);
+}
 
 // Fiber's own use of THREE.Clock.
 const unexpected = (messages) => messages.filter((text) => !text.includes('THREE.Clock'));
@@ -132,22 +154,9 @@ test('the example for React shows two dancers, and keeps a ball on one', { skip 
   await withPage(async (page, messages) => {
     await page.goto(`${server.url}/react`);
     await page.waitForSelector('canvas');
-    const red = async () => {
-      const png = (await page.screenshot()).toString('base64');
-      return page.evaluate(async (data) => {
-        const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob()), canvas = new OffscreenCanvas(bitmap.width, bitmap.height), context = canvas.getContext('2d');
-        context.drawImage(bitmap, 0, 0);
-        const seen = { red: [], lit: [] };
-        context.getImageData(0, 0, bitmap.width, bitmap.height).data.forEach((v, i, all) => {
-          if (i % 4 === 0 && v > 60)
-            seen[all[i + 1] < v / 2 ? 'red' : 'lit'].push([(i / 4) % bitmap.width, Math.floor(i / 4 / bitmap.width)]);
-        });
-        return seen;
-      }, png);
-    };
     let seen;
     for (let tries = 0; tries < 50; ++tries) {
-      seen = await red();
+      seen = await pixels(page);
       if (seen.lit.length > 100)
         break;
     }
@@ -155,8 +164,84 @@ test('the example for React shows two dancers, and keeps a ball on one', { skip 
     const [x, y] = seen.lit[seen.lit.length >> 1];
     await page.mouse.click(x, y);
     for (let tries = 0; tries < 50 && seen.red.length === 0; ++tries)
-      seen = await red();
+      seen = await pixels(page);
     assert.ok(seen.red.length > 4);
     assert.deepEqual(unexpected(messages), []);
+  }, { browser });
+});
+
+for (const [name, file] of [['model-viewer', 'model-viewer.html'], ['A-Frame', 'a-frame.html'], ['PlayCanvas', 'playcanvas.html']]) {
+  test(`the example for ${name} shows a clip that moves`, { skip }, async () => {
+    await withPage(async (page, messages) => {
+      await page.goto(`${server.url}/pages/${file}`);
+      const pictures = new Set();
+      for (let tries = 0; tries < 60 && pictures.size < 3; ++tries) {
+        const { lit } = await pixels(page);
+        if (lit.length > 200)
+          pictures.add(lit.join());
+        await page.waitForTimeout(100);
+      }
+      assert.equal(pictures.size, 3);
+      assert.deepEqual(messages.filter((text) => !/A-Frame Version|THREE Version|GPU stall|Powered by PlayCanvas|rAF timed out/.test(text)), []);
+    }, { browser });
+  });
+}
+
+test('a script of PlayCanvas plays and fades clips, with their materials and fields', { skip }, async () => {
+  await withPage(async (page, messages) => {
+    await page.goto(`${server.url}/pages/playcanvas.html`);
+    const result = await page.evaluate(async (textured) => {
+      const pc = await import('playcanvas'), { AnicPlayer } = await import('anicodec/playcanvas'), app = pc.app, outcome = { steps: {} };
+      const far = (p, q) => p.reduce((most, v, i) => Math.max(most, Math.abs(v - q[i])), 0), [a, b] = ['clip of 70', 'clip of 29'];
+      const load = async (src) => {
+        const entity = new pc.Entity();
+        entity.addComponent('script');
+        app.root.addChild(entity);
+        const script = entity.script.create(AnicPlayer, { properties: { src, playing: false } });
+        await script.ready;
+        return script;
+      };
+      const read = (script, semantic = 'getPositions') => { const out = []; script.meshInstances[0].mesh[semantic](out); return out; };
+      const player = await load('/tests/conformance/clips.anic'), { clip } = player;
+      player.play(b);
+      player.time = 0.5;
+      player.update(0);
+      outcome.steps.set = far(read(player), clip.positions(0.5, undefined, { clip: b }));
+      player.playing = true;
+      player.play(a);
+      player.update(0.25);
+      outcome.steps.playing = far(read(player), clip.positions(0.25, undefined, { clip: a }));
+      player.play(b, { fade: 1 });
+      player.update(0.25);
+      outcome.steps.fading = far(read(player), clip.positions(0.5, undefined, { clip: a, blend: { clip: b, time: 0.25, weight: 0.25 } }));
+      player.update(1);
+      outcome.steps.after = far(read(player), clip.positions(1.25, undefined, { clip: b, wrap: 'loop' }));
+      outcome.current = player.current;
+      player.entity.destroy();
+      outcome.closed = clip.closed;
+      const heated = await load('/tests/conformance/heated.anic'), own = read(heated, 'getColors');
+      outcome.field = heated.showField('temperature').name;
+      outcome.painted = far(read(heated, 'getColors'), own) > 0.1;
+      heated.showField();
+      outcome.back = far(read(heated, 'getColors'), own) < 1e-6;
+      if (textured) {
+        const [one, two] = (await load('/looks.anic')).meshInstances, wood = [one, two].find(({ material }) => material.name === 'wood').material;
+        outcome.looks = [one.mesh.primitive[0].count + two.mesh.primitive[0].count, one.mesh.vertexBuffer === two.mesh.vertexBuffer, wood.gloss, wood.metalness, wood.opacity, wood.userData.anic.normalImage];
+      }
+      const lost = new pc.Entity();
+      lost.addComponent('script');
+      app.root.addChild(lost);
+      const failing = lost.script.create(AnicPlayer, { properties: { src: '/absent.anic' } });
+      failing.on('error', ({ message }) => { outcome.error = message; });
+      await failing.ready.catch(() => {});
+      return outcome;
+    }, looks !== undefined);
+    assert.ok(Object.values(result.steps).every((distance) => distance < 1e-3), JSON.stringify(result));
+    const { current, closed, field, painted, back } = result;
+    assert.deepEqual({ current, closed, field, painted, back }, { current: 'clip of 29', closed: true, field: 'temperature', painted: true, back: true });
+    assert.match(result.error, /404/);
+    if (looks)
+      assert.deepEqual(result.looks.slice(1), [true, 0.125, 0.25, 0.75, 'wood_normal.png']);
+    assert.deepEqual(messages.filter((text) => !/404|Powered by PlayCanvas/.test(text)), []);
   }, { browser });
 });

@@ -14,12 +14,12 @@ export const CHROMIUM = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr
 
 const WEBGPU = ['--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader', '--enable-features=Vulkan', '--ignore-gpu-blocklist'];
 
-/** Serves files of the checkout, and pages: path to HTML. Gives its address. */
-export async function serve(pages = {}) {
+/** Serves files of the checkout, and pages: path to HTML or a file. `folders`: [path, folder of the checkout], the first one counts. Gives its address. */
+export async function serve(pages = {}, folders = []) {
   const server = createServer(async (request, response) => {
-    const { pathname } = new URL(request.url, 'http://localhost');
+    const { pathname } = new URL(request.url, 'http://localhost'), [path, folder] = folders.find(([one]) => pathname.startsWith(one)) ?? ['', ''];
     try {
-      const body = pages[pathname] ?? await readFile(root + decodeURIComponent(pathname).replaceAll('..', ''));
+      const body = pages[pathname] ?? await readFile(root + folder + decodeURIComponent(pathname.slice(path.length)).replaceAll('..', ''));
       response.writeHead(200, { 'content-type': pages[pathname] && !extname(pathname) ? 'text/html' : TYPES[extname(pathname)] ?? 'application/octet-stream' });
       response.end(body);
     } catch {

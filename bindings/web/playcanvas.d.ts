@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+import type { Asset, Entity, MeshInstance } from 'playcanvas';
+import { Script } from 'playcanvas';
+import type { Clip, OpenOptions, SampleOptions } from './index.js';
+
+/**
+ * A script that shows an .anic file below its entity: entity.script.create(AnicPlayer, { properties: { src: 'dancer.anic' } }), or in
+ * the Editor. Positions and normals are made on the CPU; a clip with z up is turned. It fires 'load' with the Clip, and 'error' with what
+ * failed, which otherwise the console says. Destroyed, it closes the clip.
+ */
+export declare class AnicPlayer extends Script {
+  static scriptName: string;
+  /** Address of the file. */
+  src: string;
+  /** The file as a binary asset, in place of an address. */
+  asset: Asset | null;
+  /** Name of the clip that plays first; empty: the first of the file. */
+  clipName: string;
+  playing: boolean;
+  speed: number;
+  loop: boolean;
+  /** Before the script is initialized. */
+  options: OpenOptions;
+  sampling: SampleOptions['sampling'];
+  /** Settles when the file is open. */
+  readonly ready: Promise<this>;
+  /** Undefined until it is open. */
+  readonly clip: Clip | undefined;
+  /** Holds what is drawn, turned to the scene's axes. */
+  readonly holder: Entity | undefined;
+  /** One for each material of each mesh: their materials may be replaced. */
+  readonly meshInstances: MeshInstance[];
+  /** Plays a clip, by its name or number, from `time` on; the one before fades out within `fade` seconds. */
+  play(clip?: string | number, options?: { fade?: number; time?: number }): void;
+  /** Name of the clip that plays. */
+  readonly current: string;
+  /** Seconds since its first frame; may be set, and shows a moment where `playing` is false. */
+  time: number;
+  /** Names of the fields of the clip: numbers beside positions, such as temperatures. */
+  readonly fields: string[];
+  /**
+   * Shows a field as colours of the vertices, times those of the materials, from dark blue over green to yellow; without a name those
+   * of the file again. The range is that of 32 frames of the clip that plays, unless `low` and `high` say otherwise. Throws if there
+   * is no such field.
+   */
+  showField(name?: string, range?: { low?: number; high?: number }): { name: string; low: number; high: number } | undefined;
+}
