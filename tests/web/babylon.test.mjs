@@ -3,24 +3,14 @@
 //
 // anicodec/babylon in Chromium. `npm ci --prefix tests/web/babylon` installs Babylon.js.
 import assert from 'node:assert/strict';
-import { existsSync, readFileSync } from 'node:fs';
+import { existsSync } from 'node:fs';
 import { test } from 'node:test';
 import { Anicodec } from '../../bindings/web/index.js';
+import { babylonImports, babylonScripts, pageOf } from './engines.mjs';
 import { bytesOf, movingGlb, sceneWithMovingTexture } from './files.mjs';
 import { CHROMIUM, serve, withPage } from './serve.mjs';
 
-const PACKAGES = '/tests/web/babylon/node_modules';
-// The package for scripts, which is one file, stands in for the one of modules, which are thousands.
-const imports = { anicodec: '/bindings/web/index.js', 'anicodec/babylon': '/bindings/web/babylon.js' };
-for (const file of ['babylon.js', 'babylon_surface.js', 'babylon_instances.js']) {
-  const text = readFileSync(new URL(`../../bindings/web/${file}`, import.meta.url), 'utf8');
-  for (const [, names, module] of text.matchAll(/^import (?:\{ (.*) \} from )?'(@babylonjs\/.*)';$/gm)) {
-    const exported = (names ?? '').split(', ').filter(Boolean).map((name) => `export const ${name} = BABYLON.${name};`);
-    imports[module] = `${imports[module] ?? 'data:text/javascript,'}${exported.filter((one) => !imports[module]?.includes(one)).join('')}`;
-  }
-}
-const PAGE = `<!doctype html><link rel=icon href="data:,"><script src="${PACKAGES}/babylonjs/babylon.js"></script>
-<script src="${PACKAGES}/babylonjs-loaders/babylon.glTF2FileLoader.js"></script><script type=importmap>${JSON.stringify({ imports })}</script><canvas id=canvas width=320 height=240></canvas>`;
+const PAGE = pageOf(babylonImports(), babylonScripts);
 // Corrections, shapes, trajectories, several segments, sharp turns, colours, clips, and regions.
 const INSTANCED = ['quad_box_corrected', 'limb_default', 'schedules', 'rings', 'heated', 'clips', 'walk', 'regions', 'layers'].map((name) => `${name}.anic`);
 const installed = existsSync(new URL('babylon/node_modules/babylonjs', import.meta.url));

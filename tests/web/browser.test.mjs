@@ -6,15 +6,11 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { Anicodec } from '../../bindings/web/index.js';
+import { threeImports } from './engines.mjs';
 import { bytesOf, clipWithLooks, files, movingGlb, sceneWithMovingTexture } from './files.mjs';
 import { CHROMIUM, launch, serve, withPage } from './serve.mjs';
 
-const IMPORTS = JSON.stringify({ imports: {
-  anicodec: '/bindings/web/index.js', 'anicodec/three': '/bindings/web/three.js',
-  three: '/tests/web/node_modules/three/build/three.module.js', 'three/webgpu': '/tests/web/node_modules/three/build/three.webgpu.js',
-  'three/tsl': '/tests/web/node_modules/three/build/three.tsl.js', 'three/addons/': '/tests/web/node_modules/three/examples/jsm/',
-} });
-const PAGE = `<!doctype html><link rel=icon href="data:,"><script type=importmap>${IMPORTS}</script><body style="margin:0"></body>`;
+const PAGE = `<!doctype html><link rel=icon href="data:,"><script type=importmap>${JSON.stringify({ imports: threeImports })}</script><body style="margin:0"></body>`;
 const looks = clipWithLooks(), texture = sceneWithMovingTexture();
 const skip = CHROMIUM ? false : 'there is no Chromium';
 const VIEWER = new URL('../../bindings/web/dist/viewer.html', import.meta.url);

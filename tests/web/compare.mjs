@@ -10,6 +10,7 @@ import { extname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { brotliCompressSync, constants } from 'node:zlib';
 import { Anicodec } from '../../bindings/web/index.js';
+import { threeImports } from './engines.mjs';
 import { withPage } from './serve.mjs';
 
 const [anic, glb, runs = 5] = process.argv.slice(2), root = fileURLToPath(new URL('../../', import.meta.url));
@@ -22,9 +23,8 @@ for (let f = 0; f < frames; ++f) {
     texture[4 * (f * vertexCount + Math.floor(i / 3)) + i % 3] = Math.round((x - min[i % 3]) / (max[i % 3] - min[i % 3]) * 65535);
   });
 }
-const three = '/tests/web/node_modules/three/', imports = { three: `${three}build/three.module.js`, 'three/addons/': `${three}examples/jsm/`,
-  anicodec: '/bindings/web/index.js', 'anicodec/three': '/bindings/web/three.js' };
-const page = `<!doctype html><link rel=icon href="data:,"><script type=importmap>${JSON.stringify({ imports })}</script><body></body>`;
+const three = '/tests/web/node_modules/three/';
+const page = `<!doctype html><link rel=icon href="data:,"><script type=importmap>${JSON.stringify({ imports: threeImports })}</script><body></body>`;
 const FILES = { '/page': page, '/clip.anic': bytes, '/clip.glb': readFileSync(glb), '/clip.vat': Buffer.from(texture.buffer), '/faces': Buffer.from(mesh.indices.buffer) };
 const TYPES = { '.js': 'text/javascript', '.wasm': 'application/wasm', '.anic': 'application/octet-stream', '': 'text/html' };
 const packed = new Map(), pack = (path) => {

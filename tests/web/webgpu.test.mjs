@@ -4,15 +4,11 @@
 // Instances of a clip by WebGPURenderer of three.js, in Chromium by SwiftShader.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
+import { threeImports } from './engines.mjs';
 import { files } from './files.mjs';
 import { CHROMIUM, serve, withPage } from './serve.mjs';
 
-const IMPORTS = JSON.stringify({ imports: {
-  anicodec: '/bindings/web/index.js', 'anicodec/three': '/bindings/web/three.js', 'anicodec/three/webgpu': '/bindings/web/three_webgpu.js',
-  three: '/tests/web/node_modules/three/build/three.module.js', 'three/webgpu': '/tests/web/node_modules/three/build/three.webgpu.js',
-  'three/tsl': '/tests/web/node_modules/three/build/three.tsl.js',
-} });
-const PAGE = `<!doctype html><link rel=icon href="data:,"><script type=importmap>${IMPORTS}</script><body style="margin:0"></body>`;
+const PAGE = `<!doctype html><link rel=icon href="data:,"><script type=importmap>${JSON.stringify({ imports: threeImports })}</script><body style="margin:0"></body>`;
 let server;
 before(async () => { server = await serve({ '/page': PAGE }); });
 after(() => server.close());
