@@ -41,7 +41,7 @@ say "Collecting pages, headers and types"
 "$out/venv/bin/python" docs/site/collect.py "$out"
 (cd "$out" && doxygen doxygen/Doxyfile)
 docs/site/node_modules/.bin/typedoc --options docs/site/typedoc.json --out "$out/source/reference/javascript"
-for module in index:anicodec three:anicodec/three three_webgpu:anicodec/three/webgpu react:anicodec/react babylon:anicodec/babylon playcanvas:anicodec/playcanvas gltf_transform:anicodec/gltf-transform; do
+for module in index:anicodec three:anicodec/three three_webgpu:anicodec/three/webgpu react:anicodec/react babylon:anicodec/babylon playcanvas:anicodec/playcanvas gltf_transform:anicodec/gltf-transform loaders_gl:anicodec/loaders-gl; do
   sed -i "1s|.*|# ${module#*:}|" "$out/source/reference/javascript/${module%%:*}.md"
 done
 

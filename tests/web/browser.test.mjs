@@ -284,6 +284,13 @@ test('groups stay on points of the surface, in scenes and their clones too', { s
     mixer.clipAction(playerOf(copy).animations.find(({ name }) => name === b)).play();
     mixer.setTime(playerOf(copy).clip.find(b).startTime + 0.5);
     outcome.played = [playerOf(copy).current, Math.round(1000 * playerOf(copy).time)];
+    // A mesh that comes and goes.
+    const two = await new AnicLoader().loadAsync('/tests/conformance/scene.anic'), on = two.anchor({ mesh: 1, vertices: [0, 1, 2], weights: [1, 0, 0] });
+    outcome.visible = [0, 1, 4, 5].map((frame) => {
+      two.time = two.clip.frameTime(frame);
+      two.refresh();
+      return on.visible;
+    });
     // Objects of one clip close it with the last.
     const second = mesh.clone(), group = mesh.anchor({ vertices: [0, 1, 2], weights: [1, 0, 0] });
     outcome.parent = group.parent === mesh;
@@ -305,7 +312,7 @@ test('groups stay on points of the surface, in scenes and their clones too', { s
   });
   assert.ok(result.far.length === 9 && result.far.every((far) => far < 1e-3) && result.turned.every((turned) => turned < 0.01), JSON.stringify(result));
   assert.deepEqual({ ...result, far: 0, turned: 0 },
-    { far: 0, turned: 0, apart: true, played: ['clip of 29', 500], parent: true, refused: 'ANIC_E_ARGUMENT', groups: 1, closed: [false, true] });
+    { far: 0, turned: 0, apart: true, played: ['clip of 29', 500], visible: [false, true, false, false], parent: true, refused: 'ANIC_E_ARGUMENT', groups: 1, closed: [false, true] });
 });
 
 test('three.js shows fields as colours', { skip }, async () => {
