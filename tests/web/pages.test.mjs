@@ -22,17 +22,29 @@ async function bundle(options) {
   const { build } = await import('../../bindings/web/node_modules/esbuild/lib/main.js');
   const { outputFiles: [script] } = await build({
     bundle: true, format: 'esm', target: 'es2022', jsx: 'automatic', write: false, external: ['node:fs/promises'], define: { 'process.env.NODE_ENV': '"production"' },
-    alias: { 'anicodec/react': `${WEB}/react.js`, three: here('node_modules/three') }, nodePaths: [here('pages/node_modules')], ...options,
+    alias: { 'anicodec/react': `${WEB}/react.js`, 'anicodec/three': `${WEB}/three.js`, 'three/addons': here('node_modules/three/examples/jsm'), three: here('node_modules/three') }, nodePaths: [here('pages/node_modules')], ...options,
   });
   return script.text;
 }
 
 // Whatever a test changes, it changes by show(props).
 const APP = `
-import { Component, StrictMode, Suspense, useState } from 'react';
+import { Component, StrictMode, Suspense, useMemo, useState } from 'react';
 import { createRoot } from 'react-dom/client';
-import { Canvas } from '@react-three/fiber';
+import { Canvas, useFrame, useLoader } from '@react-three/fiber';
+import { AnimationMixer } from 'three';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { Anic, AnicAnchor, useAnic } from 'anicodec/react';
+import { AnicGLTFExtension } from 'anicodec/three';
+function Scene({ src }) {
+  const { scene, animations } = useLoader(GLTFLoader, src, (loader) => loader.register((parser) => new AnicGLTFExtension(parser)));
+  const mixer = useMemo(() => new AnimationMixer(scene), [scene]);
+  useFrame((_, seconds) => {
+    mixer.clipAction(animations[0]).play();
+    mixer.update(seconds);
+  });
+  return <primitive ref={(shown) => { globalThis.scene = shown; }} object={scene} />;
+}
 class Problem extends Component {
   state = {};
   static getDerivedStateFromError({ message }) { globalThis.problem = message; return { message }; }
@@ -41,11 +53,12 @@ class Problem extends Component {
 function App() {
   const [props, show] = useState({ src: '/tests/conformance/clips.anic' });
   globalThis.show = (more) => show((before) => ({ ...before, ...more }));
-  const { shown = true, point, ...rest } = props;
+  const { shown = true, point, scene, ...rest } = props;
   return <Suspense fallback={null}>
     {shown && <Anic ref={(mesh) => { globalThis.mesh = mesh; }} {...rest}>
       {point && <AnicAnchor point={point} position={[0, 1, 0]}><mesh ref={(pin) => { globalThis.pin = pin; }}><boxGeometry /></mesh></AnicAnchor>}
     </Anic>}
+    {scene && <Scene src={scene} />}
     <Anic ref={(mesh) => { globalThis.other = mesh; }} src="/tests/conformance/clips.anic" time={0.5} clip="clip of 29" />
   </Suspense>;
 }
@@ -135,6 +148,13 @@ test('a component of React plays a clip as its props say', { skip }, async () =>
       show({ shown: false });
       await next();
       outcome.open = [heated.clip.closed, other.clip.closed];
+      show({ scene: '/pages/model.glb' });
+      const moment = () => globalThis.scene?.getObjectByName('ANIC_mesh_animation').time ?? 0;
+      for (let tries = 0; tries < 100 && moment() === 0; ++tries) {
+        await wait(20);
+        show({});
+      }
+      outcome.scene = moment() > 0;
       show({ shown: true, src: '/tests/conformance/absent.anic' });
       for (let tries = 0; tries < 100 && !globalThis.problem; ++tries)
         await wait(20);
@@ -142,9 +162,9 @@ test('a component of React plays a clip as its props say', { skip }, async () =>
       return outcome;
     });
     assert.ok(Object.values(result.steps).every((distance) => distance < 1e-3), JSON.stringify(result));
-    const { apart, clip, stands, shadow, colours, own, open } = result;
-    assert.deepEqual({ apart, clip, stands, shadow, colours, own, open },
-      { apart: true, clip: 'clip of 29', stands: true, shadow: true, colours: [true, true], own: false, open: [false, false] });
+    const { apart, clip, stands, shadow, colours, own, open, scene } = result;
+    assert.deepEqual({ apart, clip, stands, shadow, colours, own, open, scene },
+      { apart: true, clip: 'clip of 29', stands: true, shadow: true, colours: [true, true], own: false, open: [false, false], scene: true });
     assert.match(result.problem, /absent\.anic/);
     assert.deepEqual(unexpected(messages).filter((text) => !/404|absent\.anic/.test(text)), []);
   }, { browser });
@@ -175,7 +195,7 @@ for (const [name, file] of [['model-viewer', 'model-viewer.html'], ['A-Frame', '
     await withPage(async (page, messages) => {
       await page.goto(`${server.url}/pages/${file}`);
       const pictures = new Set();
-      for (let tries = 0; tries < 60 && pictures.size < 3; ++tries) {
+      for (let tries = 0; tries < 100 && pictures.size < 3; ++tries) {
         const { lit } = await pixels(page);
         if (lit.length > 200)
           pictures.add(lit.join());
