@@ -38,14 +38,15 @@ class Part {
     const n = mesh.vertexCount, faces = mesh.triangleCount > 0, type = faces ? PRIMITIVE_TRIANGLES : PRIMITIVE_POINTS;
     Object.assign(this, { mesh, type, positions: new Float32Array(3 * n), normals: faces ? new Float32Array(3 * n) : undefined });
     this.colour = mesh.attributes.find((a) => a.kind === 'colour' && a.components >= 3 && a.domain !== 'polygon');
-    const uvs = mesh.attributes.filter((a) => a.kind === 'uv' && a.components === 2 && a.domain !== 'polygon').slice(0, 2), made = new Mesh(device);
+    this.uvs = mesh.attributes.filter((a) => a.kind === 'uv' && a.components === 2 && a.domain !== 'polygon').slice(0, 2);
+    const made = new Mesh(device);
     made.clear(true, false);
     made.setPositions(this.positions);
     if (faces) {
       made.setNormals(this.normals);
       made.setIndices(mesh.indices);
     }
-    uvs.forEach((a, i) => made.setUvs(i, mesh.attribute(a.index)));
+    this.uvs.forEach((a, i) => made.setUvs(i, this.#uvsAt(a)));
     this.colours = new Float32Array(4 * n).fill(1);  // white, until a field is shown
     made.setColors(this.colours);
     made.update(type, false);
@@ -63,6 +64,11 @@ class Part {
     for (const one of this.instances)
       one.cull = !!mesh.bounds;
     this.own = this.instances.map(({ material }) => material);
+  }
+
+  /** Texture coordinates; PlayCanvas counts v of images downwards. */
+  #uvsAt({ index }, time, options) {
+    return this.mesh.attribute(index, time, undefined, options).map((x, i) => (i % 2 === 1 ? 1 - x : x));
   }
 
   /** Colours of the vertices: of a field, or their own. */
@@ -97,6 +103,10 @@ class Part {
       made.setNormals(normals);
     if (colours || field || this.colour?.moves)
       this.#paint(time, options, field);
+    this.uvs.forEach((a, i) => {
+      if (a.moves)
+        made.setUvs(i, this.#uvsAt(a, time, options));
+    });
     const { primitive: [kept] } = made, { base, count } = kept;
     made.update(this.type, false);
     Object.assign(kept, { base, count });  // update() draws all

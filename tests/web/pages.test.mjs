@@ -244,6 +244,11 @@ test('a script of PlayCanvas plays and fades clips, with their materials and fie
       outcome.painted = far(read(heated, 'getColors'), own) > 0.1;
       heated.showField();
       outcome.back = far(read(heated, 'getColors'), own) < 1e-6;
+      heated.time = 0.4;
+      heated.update(0);
+      const uvs = [];
+      heated.meshInstances[0].mesh.getUvs(0, uvs);
+      outcome.steps.uv = far(uvs, heated.clip.attribute('uv', 0.4).map((x, i) => (i % 2 === 1 ? 1 - x : x)));
       if (textured) {
         const [one, two] = (await load('/looks.anic')).meshInstances, wood = [one, two].find(({ material }) => material.name === 'wood').material;
         outcome.looks = [one.mesh.primitive[0].count + two.mesh.primitive[0].count, one.mesh.vertexBuffer === two.mesh.vertexBuffer, wood.gloss, wood.metalness, wood.opacity, wood.userData.anic.normalImage];
