@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 import type { Asset, Entity, MeshInstance } from 'playcanvas';
 import { Script } from 'playcanvas';
-import type { Clip, OpenOptions, SampleOptions } from './index.js';
+import type { Clip, OpenOptions, SampleOptions, SurfacePoint } from './index.js';
 
 /**
  * A script that shows an .anic file below its entity: entity.script.create(AnicPlayer, { properties: { src: 'dancer.anic' } }), or in
@@ -37,6 +37,12 @@ export declare class AnicPlayer extends Script {
   readonly current: string;
   /** Seconds since its first frame; may be set, and shows a moment where `playing` is false. */
   time: number;
+  /**
+   * Keeps an entity on a point of the surface, for what is held or worn: its y axis is the normal of the triangle, x the tangent along its
+   * first edge. The point is that of a mesh by its number, the first one if it has none, such as a hit of ClipMesh.intersectRay() in the
+   * space of `holder`. It is disabled while the mesh is not there, and free again below another parent. Throws for a point that is none.
+   */
+  anchor(point: SurfacePoint & { mesh?: number }, entity?: Entity): Entity;
   /** Names of the fields of the clip: numbers beside positions, such as temperatures. */
   readonly fields: string[];
   /**

@@ -3,7 +3,8 @@
 //
 // Clips in PlayCanvas: a script of entities that opens a file, shows and plays it.
 import {
-  BLEND_NORMAL, BoundingBox, CULLFACE_BACK, CULLFACE_NONE, Entity, Mesh, MeshInstance, PRIMITIVE_POINTS, PRIMITIVE_TRIANGLES, Script, StandardMaterial, Vec3,
+  BLEND_NORMAL, BoundingBox, CULLFACE_BACK, CULLFACE_NONE, Entity, Mat4, Mesh, MeshInstance, PRIMITIVE_POINTS, PRIMITIVE_TRIANGLES, Quat, Script, StandardMaterial,
+  Vec3,
 } from 'playcanvas';
 import { fieldNames, fieldOf, writeFieldColours } from './fields.js';
 import { open } from './index.js';
@@ -173,6 +174,7 @@ export class AnicPlayer extends Script {
   #parts = [];
   #shown = '';
   #field;
+  #anchors = [];
   #gone = false;
 
   initialize() {
@@ -260,13 +262,46 @@ export class AnicPlayer extends Script {
       one.weight = one.share * (1 - newest.weight);
   }
 
+  /** What is shown now, as of sampleOf(). */
+  #sample() {
+    const largest = this.#moments.filter(({ weight }) => weight > 0).sort((a, b) => b.weight - a.weight);
+    return sampleOf(largest, { sampling: this.sampling, wrap: this.loop ? 'loop' : 'clamp' });
+  }
+
   #show(all) {
-    const largest = this.#moments.filter(({ weight }) => weight > 0).sort((a, b) => b.weight - a.weight), { time, options, key } = sampleOf(largest, { sampling: this.sampling, wrap: this.loop ? 'loop' : 'clamp' });
+    const { time, options, key } = this.#sample();
     if (key === this.#shown && !all)
       return;
     for (const part of this.#parts)
       part.show(time, options, this.#field, all);
     this.#shown = key;
+    this.#anchors = this.#anchors.filter(({ entity }) => entity.parent === this.holder);
+    for (const anchor of this.#anchors)
+      this.#place(anchor, time, options);
+  }
+
+  /**
+   * Keeps an entity on a point of the surface, as what is held or worn: its y axis is the normal, x the tangent. The point is a hit of
+   * ClipMesh.intersectRay() with the number of the `mesh`. Below another parent, the entity is free again.
+   */
+  anchor({ mesh = 0, vertices, weights }, entity = new Entity('anchor')) {
+    if (!this.#parts[mesh])
+      throw new Error(`the clip has no mesh ${mesh}`);
+    const anchor = { entity, mesh: this.#parts[mesh].mesh, point: { vertices, weights } }, { time, options } = this.#sample();
+    this.#place(anchor, time, options);  // throws for a point that is none
+    this.#anchors = [...this.#anchors.filter((one) => one.entity !== entity), anchor];
+    if (entity.parent !== this.holder)
+      entity.reparent(this.holder);
+    return entity;
+  }
+
+  #place({ entity, mesh, point }, time, options) {
+    entity.enabled = mesh.isPresent(time, options);
+    if (!entity.enabled)
+      return;
+    const { position, normal, tangent } = mesh.surfaceFrame(point, time, options), z = new Vec3().cross(new Vec3(...tangent), new Vec3(...normal));
+    entity.setLocalPosition(...position);
+    entity.setLocalRotation(new Quat().setFromMat4(new Mat4().set([...tangent, 0, ...normal, 0, z.x, z.y, z.z, 0, 0, 0, 0, 1])));
   }
 
   #release() {

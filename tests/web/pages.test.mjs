@@ -237,6 +237,16 @@ test('a script of PlayCanvas plays and fades clips, with their materials and fie
       player.update(1);
       outcome.steps.after = far(read(player), clip.positions(1.25, undefined, { clip: b, wrap: 'loop' }));
       outcome.current = player.current;
+      const point = { vertices: [0, 1, 2], weights: [0.5, 0.25, 0.25] }, entity = player.anchor(point);
+      player.time = 0.3;
+      player.update(0);
+      const frame = clip.meshes[0].surfaceFrame(point, 0.3, { clip: b, wrap: 'loop' }), axis = (v) => entity.getLocalRotation().transformVector(new pc.Vec3(...v)), list = ({ x, y, z }) => [x, y, z];
+      outcome.steps.anchor = Math.max(far(list(entity.getLocalPosition()), frame.position), far(list(axis([0, 1, 0])), frame.normal), far(list(axis([1, 0, 0])), frame.tangent));
+      entity.reparent(app.root);
+      const free = entity.getLocalPosition().clone();
+      player.time = 0.6;
+      player.update(0);
+      outcome.free = free.equals(entity.getLocalPosition());
       player.entity.destroy();
       outcome.closed = clip.closed;
       const heated = await load('/tests/conformance/heated.anic'), own = read(heated, 'getColors');
@@ -262,8 +272,8 @@ test('a script of PlayCanvas plays and fades clips, with their materials and fie
       return outcome;
     }, looks !== undefined);
     assert.ok(Object.values(result.steps).every((distance) => distance < 1e-3), JSON.stringify(result));
-    const { current, closed, field, painted, back } = result;
-    assert.deepEqual({ current, closed, field, painted, back }, { current: 'clip of 29', closed: true, field: 'temperature', painted: true, back: true });
+    const { current, closed, field, painted, back, free } = result;
+    assert.deepEqual({ current, closed, field, painted, back, free }, { free: true, current: 'clip of 29', closed: true, field: 'temperature', painted: true, back: true });
     assert.match(result.error, /404/);
     if (looks)
       assert.deepEqual(result.looks.slice(1), [true, 0.125, 0.25, 0.75, 'wood_normal.png']);
