@@ -9,7 +9,7 @@ import type { Ray } from '@babylonjs/core/Culling/ray.js';
 import type { PickingInfo } from '@babylonjs/core/Collisions/pickingInfo.js';
 import type { Clip, ClipMesh, OpenOptions, SampleOptions, Source, SurfacePoint } from './index.js';
 
-/** What a scene picks, or a point of a mesh of the clip by its number, the first one if it has none. */
+/** The result of a scene's pick, or a point of a mesh of the clip by its number, the first one if it has none. */
 export type AnchorPoint = Pick<PickingInfo, 'pickedMesh' | 'faceId' | 'bu' | 'bv'> | (SurfacePoint & { mesh?: number });
 
 /** A field that is shown, and the values that its colours run between. */

@@ -33,7 +33,7 @@ export class AnicFile extends ExtensionProperty {
   setURI(uri) { return this.set('uri', uri); }
 }
 
-/** What a primitive moves by: a mesh of a file, and the vertex of it that is the primitive's first. */
+/** The mesh of a file that a primitive moves by, and the vertex there that is the primitive's first. */
 export class MeshAnimation extends ExtensionProperty {
   static EXTENSION_NAME = EXTENSION;
 
@@ -117,7 +117,7 @@ function restore(primitive, name) {
 
 /**
  * Lets glTF-Transform read, keep and write scenes that move by clips: io.registerExtensions([ANICMeshAnimation]). Files of the same
- * bytes are written once. What would show them wrong fails when it is written: positions that were quantized or transformed, Draco.
+ * bytes are written once. Writing fails where a scene would be shown wrong: positions that were quantized or transformed, Draco.
  */
 export class ANICMeshAnimation extends Extension {
   static EXTENSION_NAME = EXTENSION;

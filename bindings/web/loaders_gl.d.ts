@@ -18,12 +18,12 @@ export interface AnicMeshData {
 }
 
 export type AnicLoaderOptions = StrictLoaderOptions & {
-  /** Those of open(), and the number of the mesh; 0 is the default. */
+  /** Options of open(), and the number of the mesh; 0 is the default. */
   anic?: OpenOptions & { mesh?: number };
 };
 
 /** A loader for loaders.gl 4, such as of deck.gl: load('dancer.anic', AnicLoader) gives a mesh of the file at its first frame. */
 export declare const AnicLoader: LoaderWithParser<AnicMeshData, never, AnicLoaderOptions>;
 
-/** What a mesh of this loader is at another time, seconds from the first frame: for the next frame that is drawn. */
+/** The mesh at another time, in seconds from the first frame: for the next picture. */
 export declare function anicMeshAt(mesh: AnicMeshData, time: number, options?: SampleOptions): AnicMeshData;

@@ -262,7 +262,7 @@ export class AnicPlayer extends Script {
       one.weight = one.share * (1 - newest.weight);
   }
 
-  /** What is shown now, as of sampleOf(). */
+  /** The moment that is shown now, as sampleOf() gives it. */
   #sample() {
     const largest = this.#moments.filter(({ weight }) => weight > 0).sort((a, b) => b.weight - a.weight);
     return sampleOf(largest, { sampling: this.sampling, wrap: this.loop ? 'loop' : 'clamp' });

@@ -6,12 +6,12 @@ import type { Material } from 'three';
 import type { OpenOptions, SampleOptions } from './index.js';
 import type { AnchorPoint, AnicMesh } from './three.js';
 
-/** Those that are plain values; a file is opened once for the same ones. */
+/** Options that are plain values; a file is opened once for the same ones. */
 export type AnicOptions = Omit<OpenOptions, 'signal' | 'onProgress' | 'onRefine'>;
 
 /**
  * An AnicMesh of the component's own, for a `<primitive>`: call its update() in useFrame(). The file is opened once for all
- * components, which suspend until it is there. What fails is thrown to an error boundary.
+ * components, which suspend until it is there. Errors go to an error boundary.
  */
 export declare const useAnic: {
   (src: string, options?: AnicOptions): AnicMesh;
@@ -36,7 +36,7 @@ export interface AnicProps extends Omit<ThreeElements['group'], 'ref' | 'clip'> 
   fade?: number;
   sampling?: SampleOptions['sampling'];
   wrap?: SampleOptions['wrap'];
-  /** In place of those of the file. */
+  /** Replaces the materials of the file. */
   material?: Material;
   /** A field to show as colours, with its range: see AnicMesh.showField(). */
   field?: string;

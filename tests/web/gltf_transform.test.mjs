@@ -96,7 +96,7 @@ test('a clip beside the scene, and scenes made by a program, are written', { ski
   assert.deepEqual([json.meshes[0].primitives[0].extensions[NAME], files[0].length], [{ file: 0, mesh: 2, firstVertex: 5 }, clips.length]);
 });
 
-test('what would show a clip wrong is refused', { skip }, async () => {
+test('scenes that a clip would move wrong are refused', { skip }, async () => {
   const refused = async (pattern, ...steps) => {
     const document = await io.readBinary(source);
     await document.transform(...steps);

@@ -27,7 +27,7 @@ async function bundle(options) {
   return script.text;
 }
 
-// Whatever a test changes, it changes by show(props).
+// A test changes it by show(props).
 const APP = `
 import { Component, StrictMode, Suspense, useMemo, useState } from 'react';
 import { createRoot } from 'react-dom/client';
