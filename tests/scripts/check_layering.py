@@ -37,6 +37,8 @@ ALLOWED = {
     "bindings/usd": ['"bindings/usd/', "<anicodec/", "<pxr/", "<dlfcn.h>", "<link.h>", "<unistd.h>"],
     "bindings/web": ["<anicodec/", "<stdlib.h>", "<string.h>"],
     "bindings/engines/ogre": ['"bindings/engines/ogre/', "<anicodec/", "<Ogre"],
+    # By names alone, as Unreal's modules find headers.
+    "bindings/engines/unreal": ['"', "<anicodec/"],
 }
 # Rooms, each with the rooms of its module that it may include: only rooms that stand above it, so that all
 # arrows point one way. A folder with sources is a room and has a README.md.
@@ -109,6 +111,7 @@ MAX_UNITS = 20
 # Folders that hold no room: the public headers, programs that use them, stand-ins, and what is installed.
 NOT_ROOMS = {"codec/include/anicodec", "codec/examples", "sdk/include/anicodec", "sdk/examples", "sdk/package",
              "bindings/python/binding", "bindings/web/binding", "sdk/draco_headers", "bindings/engines/ogre/example",
+             *(f"bindings/engines/unreal/Source/{folder}" for folder in ("Anicodec/Public", "Anicodec/Private", "AnicodecEditor/Private")),
              "bindings/usd/stand_ins/pxr/tf"}
 # One file calls Draco's decoder, one its encoder. OpenMesh changes connectivity and does nothing else.
 EXCEPTIONS = {"sdk/mesh/draco_poses.cpp": ["<draco/"], "sdk/mesh/draco_corners.h": ["<draco/"],
