@@ -168,6 +168,7 @@ def main():
         sys.exit("\n".join(faults))
     for name in ("package_test", "unity_test"):
         print(f"{name}: {run('mono', program / (name + '.exe'), files, env=environment)}", end="")
+    check_il2cpp(tests, sdk, program, environment)
     for kernel in ("Positions", "Normals") if shutil.which("glslangValidator") else ():
         run("glslangValidator", "-D", "-S", "comp", "-e", kernel, "-V", "-o", work / "kernel.spv", sdk / "Unity" / "AnicPlay.compute")
         print(f"kernel {kernel} compiles")
@@ -175,6 +176,27 @@ def main():
         print(run_with_dotnet(tests, assembly, program, work, files, environment))
     else:
         print("there is no dotnet: Mono alone")
+
+
+def check_il2cpp(tests, sdk, program, environment):
+    """Holds the code that Unity compiles for iOS to the rules of IL2CPP, and the rules to a sample that breaks each of them."""
+    mcs(program / "il2cpp_rules.exe", [tests / "il2cpp_rules.cs"], "-r:System.Core.dll")
+    mcs(program / "il2cpp_faults.dll", [tests / "il2cpp_faults.cs"], "-r:System.Core.dll")
+    told = subprocess.run(["mono", program / "il2cpp_rules.exe", program / "il2cpp_faults.dll"], text=True, stdout=subprocess.PIPE, env=environment,
+                          check=False).stdout
+    wanted = ["takes_delegate passes a ", "takes_struct passes a ", "Lets lets C call Called", "Makes calls System.Activator",
+              "Searches calls System.Type.GetMethod", "Compiles calls System.Linq.Expressions", "Generic is virtual and generic"]
+    missed = [line for line in wanted if f"Faults.{line}" not in told]
+    if missed or "LetsAsItShould" in told:
+        sys.exit(f"of the sample {missed} are missed:\n{told}")
+    phone = ["-define:UNITY_2021_3_OR_NEWER", "-define:ENABLE_IL2CPP", "-define:UNITY_IOS"]
+    folder = program / "phone"
+    folder.mkdir()
+    shutil.copy(program / "unity_stubs.dll", folder)
+    mcs(folder / "Anicodec.dll", sorted((sdk / "Runtime").glob("*.cs")), *phone)
+    players = [path for part in ("Unity", "Timeline") for path in sorted((sdk / part).glob("*.cs"))]
+    mcs(folder / "Anicodec.Unity.dll", players, *phone, f"-r:{folder / 'Anicodec.dll'}", f"-r:{folder / 'unity_stubs.dll'}")
+    print(run("mono", program / "il2cpp_rules.exe", folder / "Anicodec.dll", folder / "Anicodec.Unity.dll", env=environment), end="")
 
 
 def run_with_dotnet(tests, assembly, program, work, files, environment):
