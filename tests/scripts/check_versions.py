@@ -17,6 +17,7 @@ PLACES = {
     "bindings/blender/anicodec_blender/__init__.py": r'"version": \((\d+, \d+, \d+)\)',
     "bindings/rust/Cargo.toml": r'^version = "(.+)"$',
     "bindings/rust/bevy_anicodec/Cargo.toml": r'^version = "(.+)"$',
+    "bindings/rust/godot_anicodec/Cargo.toml": r'^version = "(.+)"$',
 }
 
 
