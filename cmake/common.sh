@@ -11,7 +11,7 @@ packages=(
   libeigen3-dev libtbb-dev                     # codec
   libopenmesh-dev                              # codec: remeshing
   libcli11-dev libfmt-dev nlohmann-json3-dev   # tools
-  libpng-dev libgif-dev                        # tools: pictures
+  libpng-dev libgif-dev libtinyexr-dev         # tools: pictures, textures
   libassimp-dev                                # tools: Collada, MD2 ...
   libgtest-dev libgmock-dev python3            # tests
   python3-dev                                  # the Python package

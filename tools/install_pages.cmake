@@ -17,7 +17,7 @@ foreach(name IN LISTS names)
   string(REGEX REPLACE " .*" "" name "${name}")
   string(REPLACE "\\-" "-" name "${name}")
   string(REGEX REPLACE "^anicodec-" "" command "${name}")
-  # massage-fit is a mode of massage, usd-plugin a command.
+  # massage-fit is a mode of massage, export-vat a command.
   execute_process(COMMAND "${COMMAND}" help "${command}" RESULT_VARIABLE is_mode OUTPUT_QUIET ERROR_QUIET)
   if(is_mode)
     string(REPLACE "-" ";" command "${command}")

@@ -60,7 +60,7 @@ done
 cd - >/dev/null
 # Licences want their text to go with what is compiled in.
 for name in libstdc++-12-dev libdraco-dev libzstd-dev libxxhash-dev libeigen3-dev libtbb-dev libopenmesh-dev libcli11-dev \
-  libfmt-dev nlohmann-json3-dev libpng-dev zlib1g-dev libgif-dev liblzma-dev; do
+  libfmt-dev nlohmann-json3-dev libpng-dev zlib1g-dev libgif-dev liblzma-dev libtinyexr-dev; do
   printf '\n==== %s\n\n' "$name"
   cat "/usr/share/doc/$name/copyright"
 done >"$out/THIRD_PARTY_LICENSES"

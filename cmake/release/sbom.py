@@ -21,7 +21,7 @@ DEBIAN = {
     "libstdc++-12-dev": "GPL-3.0-or-later WITH GCC-exception-3.1", "libdraco-dev": "Apache-2.0", "libzstd-dev": "BSD-3-Clause",
     "libxxhash-dev": "BSD-2-Clause", "libeigen3-dev": "MPL-2.0", "libtbb-dev": "Apache-2.0", "libopenmesh-dev": "BSD-3-Clause",
     "libcli11-dev": "BSD-3-Clause", "libfmt-dev": "MIT", "nlohmann-json3-dev": "MIT", "libpng-dev": "libpng-2.0",
-    "zlib1g-dev": "Zlib", "libgif-dev": "MIT", "liblzma-dev": "0BSD",
+    "zlib1g-dev": "Zlib", "libgif-dev": "MIT", "liblzma-dev": "0BSD", "libtinyexr-dev": "BSD-3-Clause",
 }
 SOURCES = {"meshopt": "MIT", "pyufbx": "MIT", "mapbox-earcut": "ISC"}  # of packages that cmake/anicodec_*.cmake bring
 ENCODER = {"libstdc++-12-dev", "libdraco-dev", "libzstd-dev", "libxxhash-dev", "libeigen3-dev", "libtbb-dev", "libopenmesh-dev"}

@@ -109,6 +109,7 @@ void add_massage_transfer(Commands& commands, CommonOptions& common);
 void add_massage_map(Commands& commands, CommonOptions& common);
 void add_dump(Commands& commands, CommonOptions& common);
 void add_render(Commands& commands, CommonOptions& common);
+void add_export_vat(Commands& commands, CommonOptions& common);
 void add_corpus(Commands& commands, CommonOptions& common);
 void add_usd_plugin(Commands& commands, CommonOptions& common);
 

@@ -18,10 +18,10 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 const std::vector<std::string> kCommands = {
-    "encode",           "decode",      "join",           "info",      "verify",
-    "compare",          "analyze",     "interpolate",    "massage",   "massage fit",
-    "massage transfer", "massage map", "massage remesh", "dump",      "render",
-    "corpus",           "add",         "remove",         "usd-plugin"};
+    "encode",           "decode",      "join",           "info",       "verify",
+    "compare",          "analyze",     "interpolate",    "massage",    "massage fit",
+    "massage transfer", "massage map", "massage remesh", "dump",       "render",
+    "corpus",           "add",         "remove",         "usd-plugin", "export-vat"};
 
 /// What a command prints as its help.
 std::string help_of(const std::string& command) {
@@ -63,8 +63,9 @@ TEST(CommandLine, EveryCommandHasHelpWithinAHundredColumns) {
 }
 
 TEST(CommandLine, OptionsThatCommandsShareAreWhereTheyApply) {
-  const std::vector<std::string> write = {"encode",  "decode", "join",   "analyze", "interpolate",
-                                          "massage", "render", "corpus", "add",     "remove"};
+  const std::vector<std::string> write = {"encode",      "decode",  "join",      "analyze",
+                                          "interpolate", "massage", "render",    "corpus",
+                                          "add",         "remove",  "export-vat"};
   for (const std::string& command : kCommands) {
     const std::string first = command.substr(0, command.find(' '));
     const bool writes = std::find(write.begin(), write.end(), first) != write.end();

@@ -49,6 +49,9 @@ class GlbVertices {
   /// A corner of the clip that each vertex stands for, or kNoCorner.
   const std::vector<uint32_t>& corners() const { return corner_; }
 
+  /// The vertex of the GLB that a corner of the clip has.
+  uint32_t of_corner(uint32_t corner) const { return of_corner_[corner]; }
+
   /// Values of the clip's vertices at those of the GLB.
   std::vector<float> of_vertices(std::span<const float> values, size_t components) const;
 
