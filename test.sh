@@ -27,6 +27,7 @@ if $packages_wanted; then
   install_optional libsdl2-dev libgl-dev libgl1-mesa-dri || say "No SDL2: the example that draws is left out"
   install_optional libogre-1.12-dev xvfb xauth || say "No OGRE: its plug-in is left out"
   install_optional mono-mcs mono-runtime glslang-tools || say "No Mono: the test of the C# package is skipped"
+  install_optional glslang-tools spirv-cross || say "No glslang or SPIRV-Cross: shaders in HLSL are not compiled"
   if command -v npm >/dev/null && [[ ! -d tests/gltf/node_modules ]]; then
     say "Installing the glTF validator"
     timeout 120 npm ci --prefix tests/gltf --no-audit --no-fund || say "No glTF validator: its test is skipped"
