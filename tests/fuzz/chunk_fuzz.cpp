@@ -12,16 +12,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     return 0;
   static const std::vector<FuzzFile> files = fuzz_files();
   const FuzzFile& good = files[data[0] % files.size()];
-  const std::vector<FuzzFile::Part>& parts = good.parts;
-  ContainerWriter writer;
-  for (size_t i = 0; i < parts.size(); ++i) {
-    const Chunk& chunk = parts[i].chunk;
-    const std::string type = chunk_name(chunk.type);
-    const char name[5] = {type[0], type[1], type[2], type[3], 0};
-    writer.add(name, chunk.required, chunk.mesh, chunk.segment,
-               i == data[1] % parts.size() ? Bytes(data + 2, data + size) : parts[i].payload);
-  }
-  const Bytes file = writer.finish(good.features);
+  FuzzParts changed = good;
+  if (changed.parts.empty())
+    return 0;
+  changed.parts[data[1] % changed.parts.size()].payload.assign(data + 2, data + size);
+  const Bytes file = changed.write();
   CappedMemory memory;
   const anic_options options = memory.options();
   anic_asset* asset = nullptr;

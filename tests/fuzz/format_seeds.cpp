@@ -58,7 +58,7 @@ constexpr size_t kDependentSteps = 1;  // of pose_fuzz
 void add_mesh(Seeds& seeds, const FuzzFile& file) {
   Limits limits;
   Topology topology;
-  for (const FuzzFile::Part& part : file.parts) {
+  for (const FuzzPart& part : file.parts) {
     const std::string type = chunk_name(part.chunk.type);
     if (type == "LIMI" && Limits::read(part.payload, &limits) != Status::kOk)
       std::abort();

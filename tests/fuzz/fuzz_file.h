@@ -7,55 +7,70 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace anicodec {
 
+/// A chunk as a table names it, and its bytes.
+struct FuzzPart {
+  Chunk chunk;
+  Bytes payload;
+};
+
+/// A file taken apart, be its checksums and sizes right or wrong.
+struct FuzzParts {
+  uint64_t features = 0;
+  std::vector<FuzzPart> parts;
+  size_t taken = 0;  ///< bytes of the file, which others may follow
+
+  /// False if there is no table. Payloads end where the bytes do.
+  bool read(ByteView file) {
+    ByteReader r(file);
+    r.raw(12);
+    const uint32_t count = r.u32();
+    features = r.u64();
+    r.raw(kHeaderBytes - 24);
+    if (!r.ok() || count > r.remaining() / kLeastEntryBytes)
+      return false;
+    parts.resize(count);
+    for (FuzzPart& part : parts) {
+      Chunk& chunk = part.chunk;
+      chunk.type = r.u32();
+      r.u32();
+      const uint8_t flags = r.u8();
+      chunk.required = flags & 1;
+      chunk.copied = flags & 8;
+      if (flags & 2)
+        chunk.mesh = static_cast<uint16_t>(r.varint());
+      if (flags & 4)
+        chunk.segment = static_cast<uint32_t>(r.varint());
+      chunk.size = r.varint();
+    }
+    if (!r.ok())
+      return false;
+    taken = r.position();
+    for (FuzzPart& part : parts) {
+      const auto size = static_cast<size_t>(std::min<uint64_t>(part.chunk.size, file.size - taken));
+      part.payload.assign(file.data + taken, file.data + taken + size);
+      taken += size;
+    }
+    return true;
+  }
+
+  /// A file of the same chunks, with sizes and checksums made right.
+  Bytes write() const {
+    ContainerWriter writer;
+    for (const FuzzPart& part : parts)
+      writer.add(part.chunk, part.chunk.mesh, part.chunk.segment, part.payload);
+    return writer.finish(features);
+  }
+};
+
 /// The same chunks with what the table says of them made right, so that what is inside them gets
 /// decoded; as it is if there is no table.
 inline Bytes repaired(ByteView file) {
-  ByteReader r(file);
-  r.raw(12);
-  uint32_t count = r.u32();
-  const uint64_t features = r.u64();
-  r.raw(kHeaderBytes - 24);
-  if (!r.ok() || count > r.remaining() / kLeastEntryBytes)
-    return {file.data, file.data + file.size};
-
-  struct Entry {
-    std::string type;
-    bool required = false;
-    uint16_t mesh = kNoMesh;
-    uint32_t segment = kNoSegment;
-    uint64_t size = 0;
-  };
-
-  std::vector<Entry> entries;
-  for (uint32_t i = 0; i < count; ++i) {
-    Entry e;
-    e.type = chunk_name(r.u32());
-    r.u32();
-    const uint8_t flags = r.u8();
-    e.required = flags & 1;
-    if (flags & 2)
-      e.mesh = static_cast<uint16_t>(r.varint());
-    if (flags & 4)
-      e.segment = static_cast<uint32_t>(r.varint());
-    e.size = r.varint();
-    entries.push_back(e);
-  }
-  if (!r.ok())
-    return {file.data, file.data + file.size};
-  ContainerWriter writer;
-  size_t at = r.position();
-  for (const Entry& e : entries) {
-    auto size = static_cast<size_t>(std::min<uint64_t>(e.size, file.size - at));
-    const char type[5] = {e.type[0], e.type[1], e.type[2], e.type[3], 0};
-    writer.add(type, e.required, e.mesh, e.segment, {file.data + at, file.data + at + size});
-    at += size;
-  }
-  return writer.finish(features);
+  FuzzParts parts;
+  return parts.read(file) ? parts.write() : Bytes(file.data, file.data + file.size);
 }
 
 /// Decisions, taken from bytes one after another; from zeros when they are used up.

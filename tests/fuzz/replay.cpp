@@ -2,8 +2,9 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Runs a fuzz target where there is no libFuzzer: once on each file in the folders named on the
-// command line, then for some seconds on damaged copies of them, the same ones in every run. Says
-// which one it was when the target stops the program.
+// command line, then for some seconds on damaged copies of them, the same ones in every run; every
+// second copy by the target's own mutator where it has one. Says which one it was when the target
+// stops the program.
 //
 // usage: NAME_fuzz SECONDS FOLDER...
 #include <algorithm>
@@ -23,6 +24,9 @@
 #include <unistd.h>
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
+extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
+extern "C" __attribute__((weak)) size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size,
+                                                                size_t max_size, unsigned seed);
 
 namespace {
 
@@ -39,9 +43,11 @@ extern "C" void tell(int signal) {
   raise(signal);
 }
 
-/// A copy with one to four changes: bytes altered, left out, doubled, or taken from another input.
-Input damaged(const std::vector<Input>& inputs, size_t which, std::mt19937& random) {
-  Input bytes = inputs[which];
+std::mt19937 random_bits(1);
+
+/// One to four changes: bytes altered, left out, doubled, or taken from another input.
+Input damaged(Input bytes, const Input& other) {
+  std::mt19937& random = random_bits;
   auto below = [&](size_t limit) { return limit == 0 ? 0 : random() % limit; };
   for (uint32_t changes = 1 + random() % 4; changes > 0; --changes) {
     const size_t at = below(bytes.size() + 1);
@@ -49,7 +55,6 @@ Input damaged(const std::vector<Input>& inputs, size_t which, std::mt19937& rand
     const auto from = bytes.begin() + static_cast<std::ptrdiff_t>(at);
     const auto to = from + static_cast<std::ptrdiff_t>(count);
     const Input part(from, to);
-    const Input& other = inputs[below(inputs.size())];
     constexpr uint8_t kTelling[] = {0, 1, 0x7F, 0x80, 0xFF, '-', '9', ' '};
     switch (random() % 6) {
       case 0:
@@ -77,7 +82,24 @@ Input damaged(const std::vector<Input>& inputs, size_t which, std::mt19937& rand
   return bytes;
 }
 
+Input damaged_by_target(Input bytes) {
+  constexpr size_t kMore = 4096;
+  const size_t size = bytes.size();
+  bytes.resize(size + kMore);
+  bytes.resize(LLVMFuzzerCustomMutator(bytes.data(), size, bytes.size(),
+                                       static_cast<unsigned>(random_bits())));
+  return bytes;
+}
+
 }  // namespace
+
+extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size) {
+  const Input bytes(data, data + size);
+  const Input changed = damaged(bytes, bytes);
+  const size_t length = std::min(changed.size(), max_size);
+  std::copy_n(changed.begin(), length, data);
+  return length;
+}
 
 int main(int argc, char** argv) {
   using Clock = std::chrono::steady_clock;
@@ -101,12 +123,13 @@ int main(int argc, char** argv) {
         inputs.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
     LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
   }
-  std::mt19937 random(1);
   const Clock::time_point end = Clock::now() + std::chrono::seconds(std::atoi(argv[1]));
   uint32_t runs = 0;
   for (; !inputs.empty() && Clock::now() < end; ++runs) {
-    const size_t which = random() % inputs.size();
-    const Input bytes = damaged(inputs, which, random);
+    const size_t which = random_bits() % inputs.size();
+    const Input bytes = LLVMFuzzerCustomMutator && runs % 2 == 0
+                            ? damaged_by_target(inputs[which])
+                            : damaged(inputs[which], inputs[random_bits() % inputs.size()]);
     std::snprintf(current, sizeof current, "in damaged copy %u, of %s\n", runs,
                   paths[which].c_str());
     LLVMFuzzerTestOneInput(bytes.data(), bytes.size());

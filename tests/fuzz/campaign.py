@@ -1,0 +1,172 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The anicodec authors
+"""Fuzzes by libFuzzer under AddressSanitizer and UndefinedBehaviorSanitizer, for hours or days, and tells what was reached.
+
+usage: campaign.py FOLDER [--seconds N | --runs N] [--targets NAMES] [--jobs N] [--coverage]
+Builds the targets by preset fuzz (clang), and runs one after the other, round after round, until so many seconds have gone by
+or so many inputs have been executed in all. FOLDER, outside the checkout, keeps each target's corpus for the next time, the
+number of executions, and in found/ each input that stopped a target. With --coverage the corpora are then run in a
+build that counts (llvm-cov): what is printed are the lines of format/ and sdk/ that were executed, and those that never
+were. Exit status 1 if an input stopped a target.
+
+The targets: those that decode, unless told; importers, too: --targets gltf,alembic,md3
+"""
+import argparse
+import concurrent.futures
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DECODING = ("api", "stream", "clip", "learning", "chunk", "faces", "pose", "entropy")
+#: Files beside the seeds that the build makes.
+MORE_SEEDS = {"api": ["tests/conformance"], "stream": ["tests/conformance"], "clip": ["tests/conformance"],
+              "learning": ["tests/conformance/streams"]}
+ROUND = 60  # seconds that a target runs before the next has its turn
+LONGEST = 24576  # bytes of an input
+SLOW = 120  # seconds of the clock, on a busy machine, that an input may take
+BUILDS = {"fuzz": ["--preset", "fuzz"],
+          "coverage": ["-S", ROOT, "-B", ROOT / "build/coverage", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
+                       "-DCMAKE_C_COMPILER=clang", "-DCMAKE_CXX_COMPILER=clang++",
+                       "-DCMAKE_CXX_FLAGS=-fprofile-instr-generate -fcoverage-mapping"]}
+OPTIONS = ["-DANICODEC_LANES=8", "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1 -DNDEBUG",
+           "-DANICODEC_INSTALL=OFF", "-DCMAKE_EXE_LINKER_FLAGS=-fuse-ld=lld"]
+
+
+def built(kind, targets, jobs):
+    """Folder of the programs."""
+    folder = ROOT / "build" / kind
+    if not (folder / "build.ninja").exists():
+        subprocess.run(["cmake", *BUILDS[kind], *OPTIONS], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["ninja", "-C", folder, f"-j{jobs}", *(f"{name}_fuzz" for name in targets)], check=True,
+                   stdout=subprocess.DEVNULL)
+    return folder / "tests/fuzz"
+
+
+def seeds(programs, name):
+    folders = [programs / "seeds" / name, ROOT / "tests/fuzz/seeds" / name, *(ROOT / more for more in MORE_SEEDS.get(name, ()))]
+    return [folder for folder in folders if folder.is_dir()]
+
+
+class Campaign:
+    """What has been run so far, in a folder."""
+
+    def __init__(self, folder, targets):
+        self.folder, self.targets = folder, targets
+        self.count_file = folder / "executions.json"
+        self.counts = json.loads(self.count_file.read_text()) if self.count_file.exists() else {}
+        self.found = 0
+        (folder / "found").mkdir(parents=True, exist_ok=True)
+
+    def corpus(self, name):
+        folder = self.folder / "corpus" / name
+        folder.mkdir(parents=True, exist_ok=True)
+        return folder
+
+    def run(self, programs, name, seconds, runs):
+        """Executions of a turn."""
+        command = [programs / f"{name}_fuzz", self.corpus(name), *seeds(programs, name), f"-max_total_time={seconds}",
+                   "-print_final_stats=1", f"-timeout={SLOW}", "-rss_limit_mb=2048", f"-max_len={LONGEST}",
+                   f"-artifact_prefix={self.folder / 'found'}/{name}-"]
+        if runs:
+            command.append(f"-runs={runs}")
+        result = subprocess.run(command, capture_output=True, check=False)
+        text = result.stderr.decode(errors="replace")
+        done = int(found.group(1)) if (found := re.search(r"number_of_executed_units: (\d+)", text)) else 0
+        if result.returncode != 0:
+            self.found += 1
+            log = self.folder / "found" / f"{name}-{time.strftime('%H%M%S')}.log"
+            log.write_text(text)
+            print(f"{name}: stopped: {log}", flush=True)
+        self.counts[name] = self.counts.get(name, 0) + done
+        self.count_file.write_text(json.dumps(self.counts, indent=1) + "\n")
+        return done
+
+    def run_all(self, programs, seconds, runs, jobs):
+        start, total = time.monotonic(), 0
+        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+            while (left := seconds - (time.monotonic() - start)) > 0 and not 0 < runs <= total:
+                turn = max(1, int(min(ROUND, left * jobs / len(self.targets))))
+                total += sum(pool.map(lambda name: self.run(programs, name, turn, runs - total if runs else 0), self.targets))
+                spent = time.monotonic() - start
+                print(f"{spent:.0f} s: {total:,} executions, {total / spent:.0f} a second; with earlier ones "
+                      f"{sum(self.counts.values()):,}: " + ", ".join(f"{n} {c:,}" for n, c in sorted(self.counts.items())),
+                      flush=True)
+
+    def coverage(self, jobs):
+        """Prints what the corpora and seeds reach."""
+        programs, work = built("coverage", self.targets, jobs), self.folder / "coverage"
+        work.mkdir(exist_ok=True)
+        profiles = []
+        for name in self.targets:
+            profiles.append(work / f"{name}.profraw")
+            subprocess.run([programs / f"{name}_fuzz", "0", self.corpus(name), *seeds(programs, name)], check=True,
+                           env={"LLVM_PROFILE_FILE": str(profiles[-1])}, stdout=subprocess.DEVNULL)
+        merged = work / "all.profdata"
+        subprocess.run(["llvm-profdata", "merge", "-o", merged, *profiles], check=True)
+        objects = [word for name in self.targets for word in ("-object", programs / f"{name}_fuzz")][1:]
+        text = subprocess.run(["llvm-cov", "export", "-format=lcov", f"-instr-profile={merged}", *objects, "-skip-expansions",
+                               ROOT / "format", ROOT / "sdk"], check=True, capture_output=True, text=True).stdout
+        report(text)
+
+
+def report(lcov):
+    """Prints lines reached of each file, and runs of lines that were not."""
+    rooms, missed, lines = {}, {}, {}
+    for line in lcov.splitlines():
+        if line.startswith("SF:"):
+            lines = {}
+            path = pathlib.Path(line[3:]).relative_to(ROOT)
+        elif line.startswith("DA:"):
+            number, count = map(int, line[3:].split(",")[:2])
+            lines[number] = lines.get(number, 0) + count
+        elif line == "end_of_record":
+            room = rooms.setdefault(str(path.parent), [0, 0])
+            room[0] += sum(count > 0 for count in lines.values())
+            room[1] += len(lines)
+            if all(lines.values()):
+                continue
+            missed[str(path)] = sorted(number for number, count in lines.items() if count == 0)
+    for name, (reached, all_lines) in sorted(rooms.items()):
+        print(f"{name}: {reached} of {all_lines} lines, {100 * reached / all_lines:.1f} %")
+    for module in ("format", "sdk"):
+        sums = [sum(counts[i] for name, counts in rooms.items() if name.split("/")[0] == module) for i in (0, 1)]
+        print(f"{module} in all: {sums[0]} of {sums[1]} lines, {100 * sums[0] / max(1, sums[1]):.1f} %")
+    print("never reached:")
+    for path, numbers in sorted(missed.items()):
+        runs = []
+        for number in numbers:
+            if runs and number <= runs[-1][1] + 1:
+                runs[-1][1] = number
+            else:
+                runs.append([number, number])
+        print(f"  {path}: " + ", ".join(str(a) if a == b else f"{a}-{b}" for a, b in runs))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--seconds", type=float, default=None)
+    parser.add_argument("--runs", type=int, default=0)
+    parser.add_argument("--targets", default=",".join(DECODING))
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--coverage", action="store_true")
+    arguments = parser.parse_args()
+    folder = arguments.folder.resolve()
+    if folder.is_relative_to(ROOT):
+        parser.error(f"{folder} is inside the checkout")
+    campaign = Campaign(folder, arguments.targets.split(","))
+    seconds = arguments.seconds if arguments.seconds is not None else float("inf") if arguments.runs else 0
+    if seconds:
+        campaign.run_all(built("fuzz", campaign.targets, arguments.jobs), seconds, arguments.runs, arguments.jobs)
+    if arguments.coverage:
+        campaign.coverage(arguments.jobs)
+    sys.exit(1 if campaign.found else 0)
+
+
+if __name__ == "__main__":
+    main()
