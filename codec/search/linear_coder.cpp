@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <ranges>
 #include <string>
 #include <utility>
 
@@ -490,7 +489,8 @@ double LinearCoder::prepare(double rmse) {
   approaches_.clear();
   approaches_.emplace_back(choice_);
   // One trial tells a size but roughly: what fewer steps end with may be smaller yet.
-  for (Candidate& earlier : std::views::reverse(earlier_)) {
+  std::ranges::reverse(earlier_);
+  for (Candidate& earlier : earlier_) {
     const bool may_be_smaller = approaches_.size() < kMostApproaches && earlier.bytes * (1 - kDoubt) <= least_;
     if (may_be_smaller || effort_ == Effort::kBest)
       approaches_.emplace_back(std::move(earlier.choice));

@@ -60,7 +60,7 @@ class AlikeTriangles {
             std::abs(found[1] - wanted[1]) <= slack && std::abs(found[2] - wanted[2]) <= slack &&
             visit(image))
           return true;
-        std::ranges::rotate(image, image.begin() + 1);
+        std::rotate(image.begin(), image.begin() + 1, image.end());
       }
     }
     return false;

@@ -111,7 +111,8 @@ bool fits(const std::vector<float>& sorted, uint64_t most, ExactRecord::Lattice*
 ExactRecord::Lattice find_lattice(std::vector<float> coordinates, uint64_t most) {
   // Zeros of either sign are two numbers.
   std::ranges::sort(coordinates, {}, ordinal);
-  coordinates.erase(std::ranges::unique(coordinates, {}, ordinal).begin(), coordinates.end());
+  const auto equal = [](float a, float b) { return ordinal(a) == ordinal(b); };
+  coordinates.erase(std::unique(coordinates.begin(), coordinates.end(), equal), coordinates.end());
   if (coordinates.size() < 2)
     return {};
   // Fractions of a power of two; decimals; whatever was quantised: where most points are taken the median

@@ -163,7 +163,8 @@ class PartnerSearch {
     };
     std::ranges::stable_sort(near, {}, apart);
     for (size_t k = 0; k < std::min(near.size(), kMostEarlier); ++k) {
-      const auto& [number, index] = near[k]->second;
+      const uint32_t number = near[k]->second.first;
+      const auto& index = near[k]->second.second;
       for (const bool mirrored : {false, true}) {
         const PartnerGrowth::Rules rules{mirrored, false, &taken_, &part_of, number};
         const auto grows = [&](const Triple& from) {

@@ -168,7 +168,8 @@ class RegionSearch {
       away[from] = 0;
       open.push({0, from});
       while (!open.empty()) {
-        const auto [d, v] = open.top();
+        const double d = open.top().first;
+        const uint32_t v = open.top().second;
         open.pop();
         if (d > away[v])
           continue;
