@@ -10,7 +10,7 @@ number of executions, and in found/ each input that stopped a target. With --cov
 build that counts (llvm-cov): what is printed are the lines of format/ and sdk/ that were executed, and those that never
 were. Exit status 1 if an input stopped a target.
 
-The targets: those that decode, unless told; importers, too: --targets gltf,alembic,md3
+The targets: those that decode, unless told; `encode`, and importers, too: --targets encode,gltf,alembic,md3
 """
 import argparse
 import concurrent.futures

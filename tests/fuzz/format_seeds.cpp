@@ -191,6 +191,13 @@ int main(int argc, char** argv) {
   for (size_t steps = 0; steps < 2; ++steps)
     seeds.add("pose", "no_triangles" + std::to_string(steps), bytes_of({8, steps, 0x3F, 0}),
               Bytes(40, 0xFF));
+  // Clips and options at random.
+  for (int number = 0; number < 100; ++number) {
+    Bytes decisions(4096);
+    for (uint8_t& byte : decisions)
+      byte = static_cast<uint8_t>(random());
+    seeds.add("encode", std::to_string(number), {}, decisions);
+  }
   if (!seeds.good())
     std::fprintf(stderr, "cannot write %s\n", argv[1]);
   return seeds.good() ? 0 : 1;
