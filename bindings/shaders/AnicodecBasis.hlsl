@@ -55,7 +55,7 @@ void AnicodecBasis(Texture2D<float4> basis, Texture2D<float4> weights, float3 po
                    float3 layout, float4 decoding, float4 clip, float seconds, out float3 shownPosition, out float3 shownNormal)
 {
     int rows = (int)layout.x, positionLayers = (int)layout.y, normalLayers = (int)layout.z;
-    int columns = 1 + 4 * (positionLayers + normalLayers);
+    int columns = 2 + 4 * (positionLayers + normalLayers);
     int count = max((int)clip.y, 1);
     float at = max(seconds, 0.0) * clip.z;
     at = clip.w > 0.5 ? fmod(at, (float)count) : min(at, (float)(count - 1));
@@ -65,11 +65,12 @@ void AnicodecBasis(Texture2D<float4> basis, Texture2D<float4> weights, float3 po
     float share = frac(at);
     uv.y = 1.0 - uv.y;
     float3 offset = AnicodecWeight(weights, decoding, columns, 0, frames, share) +
-                    AnicodecSum(basis, weights, decoding, rows, columns, uv, 0, positionLayers, 1, frames, share);
+                    AnicodecWeight(weights, decoding, columns, 1, frames, share) +
+                    AnicodecSum(basis, weights, decoding, rows, columns, uv, 0, positionLayers, 2, frames, share);
     float3 direction = normal;
     if (normalLayers > 0)
         direction = AnicodecSum(basis, weights, decoding, rows, columns, uv, positionLayers, normalLayers,
-                                1 + 4 * positionLayers, frames, share);
+                                2 + 4 * positionLayers, frames, share);
 #if ANICODEC_MIRROR_X
     offset.x = -offset.x;
     if (normalLayers > 0)

@@ -23,7 +23,7 @@ vec4 anicFetch(highp sampler2D from, int x, int y) {
 }
 
 vec3 anicWeight(int column, ivec2 frames, float share) {
-  int rows = textureSize(anicWeights, 0).y, columns = 1 + 4 * (anicPositionLayers + anicNormalLayers);
+  int rows = textureSize(anicWeights, 0).y, columns = 2 + 4 * (anicPositionLayers + anicNormalLayers);
   vec3 a = anicFetch(anicWeights, column + frames.x / rows * columns, frames.x % rows).xyz;
   vec3 b = anicFetch(anicWeights, column + frames.y / rows * columns, frames.y % rows).xyz;
   return mix(a, b, share) * anicDecoding.z + anicDecoding.w;
@@ -59,7 +59,7 @@ vec3 anicOffset() {
   ivec2 frames;
   float share;
   anicFrames(frames, share);
-  return anicWeight(0, frames, share) + anicSum(0, anicPositionLayers, 1, frames, share);
+  return anicWeight(0, frames, share) + anicWeight(1, frames, share) + anicSum(0, anicPositionLayers, 2, frames, share);
 }
 
 vec3 anicNormal(vec3 rest) {
@@ -68,7 +68,7 @@ vec3 anicNormal(vec3 rest) {
   ivec2 frames;
   float share;
   anicFrames(frames, share);
-  return normalize(anicSum(anicPositionLayers, anicNormalLayers, 1 + 4 * anicPositionLayers, frames, share));
+  return normalize(anicSum(anicPositionLayers, anicNormalLayers, 2 + 4 * anicPositionLayers, frames, share));
 }
 `;
 
@@ -80,8 +80,8 @@ function replaced(shader, chunk, text) {
 }
 
 /**
- * A clip of basis textures on a mesh of three.js, that of NAME.glb. `basis`, `weights`: textures of EXRLoader, with type
- * FloatType; `description`: NAME_basis.json. Set `seconds` each frame; `clip` chooses one by its number.
+ * A clip of basis textures on a mesh of three.js, that of NAME.glb. `basis`, `weights`: textures of EXRLoader;
+ * `description`: NAME_basis.json. Set `seconds` each frame; `clip` chooses one by its number.
  * An InstancedMesh may have an InstancedBufferAttribute `anicDelay`, seconds that each instance adds.
  */
 export class AnicBasis {

@@ -21,7 +21,8 @@ const IMPORTS = JSON.stringify({ imports: {
 } });
 const PAGE = `<!doctype html><link rel=icon href="data:,"><script type=importmap>${IMPORTS}</script><body style="margin:0"></body>`;
 const folder = mkdtempSync(join(tmpdir(), 'anicodec-'));
-const RATE = 24, TIMES = [0, 7, 9.25, 23.6].map((frame) => frame / RATE);
+// A loop of 72 frames: its end, and a third turn, too.
+const RATE = 24, TIMES = [0, 7, 9.25, 23.6, 71.7, 151.5].map((frame) => frame / RATE);
 let server, browser, clip, error, description;
 
 /** Positions of the decoder; a loop goes from the last frame to the first. */
@@ -32,7 +33,7 @@ before(async () => {
     return;
   const run = (...options) => execFileSync(command, options, { encoding: 'utf8', cwd: folder });
   run('corpus', 'limb', '-o', 'limb.pc2');
-  run('encode', '-q', 'limb.obj', 'limb.pc2', '-o', 'limb.anic', '--fps', String(RATE), '--kg', '0.1');
+  run('encode', '-q', 'limb.obj', 'limb.pc2', '-o', 'limb.anic', '--fps', String(RATE), '--kg', '0.1', '--loop');
   error = JSON.parse(run('export-vat', 'limb.anic', '-o', 'out', '--json', '--rmse', '0.05%', '--normal-error', '3'));
   clip = await Anicodec.open(new Uint8Array(readFileSync(join(folder, 'limb.anic'))));
   const files = Object.fromEntries(error.files.map(({ file }) => [`/vat/${file}`, readFileSync(join(folder, 'out', file))]));
@@ -215,7 +216,7 @@ test('shaders show what the decoder shows', { skip: skipDrawing }, async (t) => 
 async function draw({ description: json, times, positions }) {
   const THREE = await import('three'), { GLTFLoader } = await import('three/addons/loaders/GLTFLoader.js'), { EXRLoader } = await import('three/addons/loaders/EXRLoader.js');
   const { AnicBasis } = await import('/bindings/shaders/anicodec_basis.js');
-  const exr = (name) => new EXRLoader().setDataType(THREE.FloatType).loadAsync(`/vat/${name}`);
+  const exr = (name) => new EXRLoader().loadAsync(`/vat/${name}`);
   const [gltf, basis, weights] = await Promise.all([new GLTFLoader().loadAsync(`/vat/${json.mesh}`), exr(json.basis), exr(json.weights)]);
   const mesh = gltf.scene.getObjectByProperty('isMesh', true), plain = new THREE.Mesh(mesh.geometry.clone(), mesh.material.clone());
   const played = new AnicBasis(mesh, { basis, weights, description: json });
@@ -253,8 +254,9 @@ async function draw({ description: json, times, positions }) {
   return shares;
 }
 
+// Without the turn of the loop, whose positions are no surface that has normals.
 test('three.js draws what the decoder shows', { skip: skipDrawing }, async () => {
-  for (const { lit, off } of await inPage(draw, { description, times: TIMES, positions: TIMES.map(wanted) })) {
+  for (const { lit, off } of await inPage(draw, { description, times: TIMES.slice(0, 4), positions: TIMES.slice(0, 4).map(wanted) })) {
     assert.ok(lit > 0.02, `${lit} of the picture`);
     assert.ok(off < 0.02, `${off} of the pixels differ`);
   }

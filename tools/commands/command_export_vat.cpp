@@ -44,11 +44,11 @@ Forms:
   houdini  NAME_pos, NAME_rot, NAME_data.json, NAME_mesh.glb: every frame, for the shader graphs of
            SideFX Labs Vertex Animation Textures 3 for Unity (soft bodies)
 
-EXR holds 16-bit floats (weights of a basis: 32-bit), PNG 16-bit numbers; Godot and browsers read
-PNG with 8 bits. In the engine: no colour space, no filter, no mipmaps, no compression. What the
-textures do not hold is named. With --json one object: form, name, vertices, frames, files (each
-with file, bytes, and of a texture width, height, memory_bytes), memory_bytes, largest_error, rmse
-(both in metres), left_out, and with normals largest_normal_error, rms_normal_error (degrees).
+EXR holds 16-bit floats, PNG 16-bit numbers; Godot and browsers read PNG with 8 bits. In the engine:
+no colour space, no filter, no mipmaps, no compression. What the textures do not hold is named. With
+--json one object: form, name, vertices, frames, files (each with file, bytes, and of a texture
+width, height, memory_bytes), memory_bytes, largest_error, rmse (both in metres), left_out, and with
+normals largest_normal_error, rms_normal_error (degrees).
 
 Examples:
   anicodec export-vat dance.anic -o dance --shaders godot
@@ -70,8 +70,7 @@ struct ExportVatCommand {
 };
 
 /// What no texture and no mesh holds, and what shaders will not do.
-std::vector<std::string> left_out(const Clip& clip, const MeshSequence& described,
-                                  const std::vector<ClipTiming>& clips) {
+std::vector<std::string> left_out(const Clip& clip, const MeshSequence& described) {
   std::vector<std::string> lost;
   for (const Attribute& a : described.attributes) {
     if (!GlbVertices::is_written(a))
@@ -81,10 +80,10 @@ std::vector<std::string> left_out(const Clip& clip, const MeshSequence& describe
     lost.emplace_back("the motion of attributes, which stay as in the first frame");
   if (!described.parts.names.empty())
     lost.push_back(counted(described.parts.names.size(), "name of a part", "names of parts"));
-  const auto uneven = [](const ClipTiming& c) { return !c.times.empty(); };
-  if (std::ranges::any_of(clips, uneven))
+  const auto& clips = clip.clips();
+  if (std::ranges::any_of(clips, [](const ClipRecord& c) { return !c.times.empty(); }))
     lost.emplace_back("times of frames, which are taken as even");
-  if (std::ranges::any_of(clips, [](const ClipTiming& c) { return !c.events.empty(); }))
+  if (std::ranges::any_of(clips, [](const ClipRecord& c) { return !c.events.empty(); }))
     lost.emplace_back("named times");
   for (uint32_t m : meshes_of(clip)) {
     const std::vector<FrameRun> runs = frames_of_mesh(clip, m);
@@ -97,6 +96,25 @@ std::vector<std::string> left_out(const Clip& clip, const MeshSequence& describe
     lost.push_back(fmt::format("the local origin {:.10g} {:.10g} {:.10g}", described.origin[0],
                                described.origin[1], described.origin[2]));
   return lost;
+}
+
+/// The clips of a file, or the frames of it that are taken.
+std::vector<VatClip> played(const Clip& clip, const FrameRange& range) {
+  std::vector<VatClip> all;
+  uint32_t first = 0;
+  for (const ClipRecord& record : clip.clips()) {
+    VatClip& one = all.emplace_back();
+    one.name.assign(record.name.begin(), record.name.end());
+    one.first_frame = first;
+    one.frame_count =
+        record.loop && record.closed && record.frames > 1 ? record.frames - 1 : record.frames;
+    one.rate = FrameRate{record.rate_numerator, record.rate_denominator}.value();
+    one.loop = record.loop;
+    first += record.frames;
+  }
+  if (range.size() < clip.frame_count())
+    all = {{all[0].name, 0, range.size(), all[0].rate / range.step}};
+  return all;
 }
 
 /// Positions times a factor.
@@ -217,15 +235,7 @@ void run(const ExportVatCommand& command, const CommonOptions& common) {
     range = parse_frames(command.frames, "--frames", clip.frame_count());
 
   MeshSequence described = describe_clip(clip, meshes_of(clip));
-  std::vector<ClipTiming> clips = clip_timings(clip);
-  if (clips.empty() || range.size() < clip.frame_count()) {
-    ClipTiming one{described.name,  range.size(),  described.rate, 0,
-                   described.times, described.loop};
-    if (one.rate.denominator <= UINT32_MAX / range.step)
-      one.rate.denominator *= range.step;
-    clips = {std::move(one)};
-  }
-  std::vector<std::string> lost = left_out(clip, described, clips);
+  std::vector<std::string> lost = left_out(clip, described);
   const AxisTurn turn(described.up, described.up == UpAxis::kZ ? UpAxis::kY : described.up);
   const double metres = described.metres_per_unit;
   turn.turn(described.attributes);
@@ -234,7 +244,8 @@ void run(const ExportVatCommand& command, const CommonOptions& common) {
   const TexelMesh mesh(std::move(described));
   const VatSource source{
       command.input == "-" ? "clip" : std::filesystem::path(command.input).stem().string(), mesh,
-      [&all, range](uint32_t f) { return all(range.first + f * range.step); }, range.size(), clips};
+      [&all, range](uint32_t f) { return all(range.first + f * range.step); }, range.size(),
+      played(clip, range)};
 
   const VatResult result =
       made(command, source, {command.png, !command.no_normals, command.max_size, line.callback()},

@@ -22,7 +22,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Json = nlohmann::ordered_json;
 
-constexpr uint32_t kGroup = 4, kHalfPlaces = 1024;
+/// Components of a texel, columns of the motion of the whole, and texels of a row whose places are exact in half floats.
+constexpr uint32_t kGroup = 4, kMotion = 2, kHalfPlaces = 1024;
 
 /// Vectors of all vertices and frames.
 struct Field {
@@ -215,6 +216,14 @@ Decoding of_png(double largest) {
   return {scale, -scale * kZero / kSteps};
 }
 
+/// The number of a 16-bit float, or nearly so if it is a small one.
+double as_half(double x) {
+  constexpr int kDigits = 11;
+  int exponent = 0;
+  const double digits = std::round(std::ldexp(std::frexp(x, &exponent), kDigits));
+  return std::ldexp(digits, exponent - kDigits);
+}
+
 /// The two textures, and what tells shaders about them.
 struct Textures {
   TexelGrid grid;
@@ -225,7 +234,7 @@ struct Textures {
 
   uint32_t layers() const { return position_layers + normal_layers; }
 
-  uint32_t first_normal_weight() const { return 1 + kGroup * position_layers; }
+  uint32_t first_normal_weight() const { return kMotion + kGroup * position_layers; }
 
   const float* weight(uint32_t f, uint32_t column) const {
     return weights.at(column + f / rows_of_weights * columns, f % rows_of_weights);
@@ -242,7 +251,7 @@ void lay_out(const VatSource& source, const VatOptions& options, Textures& t) {
   if (uint64_t{t.grid.rows} * t.layers() > options.max_size)
     t.grid = TexelGrid(vertices, options.max_size);
   check_rows(source, uint64_t{t.grid.rows} * t.layers(), options);
-  t.columns = 1 + kGroup * t.layers();
+  t.columns = kMotion + kGroup * t.layers();
   t.rows_of_weights = std::min(source.frame_count, options.max_size);
   const uint64_t width = uint64_t{t.columns} * ((source.frame_count - 1) / t.rows_of_weights + 1);
   if (width > options.max_size)
@@ -282,10 +291,13 @@ Textures filled(const VatSource& source, const VatOptions& options, const Basis&
   std::ranges::fill(t.basis.texels, t.basis_numbers.texel(0));
   std::ranges::fill(t.weights.texels, t.weight_numbers.texel(0));
   for (uint32_t f = 0; f < source.frame_count; ++f) {
-    for (uint32_t c = 0; c < 3; ++c)
-      t.weight(f, 0)[c] = t.weight_numbers.texel(basis.motion(f, c));
+    for (uint32_t c = 0; c < 3; ++c) {
+      const double whole = basis.motion(f, c), rough = options.png ? whole : as_half(whole);
+      t.weight(f, 0)[c] = t.weight_numbers.texel(rough);
+      t.weight(f, 1)[c] = t.weight_numbers.texel(whole - rough);
+    }
   }
-  fill_layers(basis.positions, 0, 1, source.frame_count, t);
+  fill_layers(basis.positions, 0, kMotion, source.frame_count, t);
   fill_layers(basis.normals, t.position_layers, t.first_normal_weight(), source.frame_count, t);
   return t;
 }
@@ -319,10 +331,11 @@ void measure(const VatSource& source, const VatOptions& options, const Basis& ba
     const std::vector<float> normals =
         with_normals ? source.mesh.normals(frame) : std::vector<float>();
     for (uint32_t v = 0; v < vertices; ++v) {
-      const auto offset = sum(t, v, f, 0, t.position_layers, 1);
+      const auto offset = sum(t, v, f, 0, t.position_layers, kMotion);
       for (size_t c = 0; c < 3; ++c)
         x[3 * v + c] = double{basis.at_rest[3 * v + c]} +
-                       t.weight_numbers.number(t.weight(f, 0)[c]) + offset[c];
+                       t.weight_numbers.number(t.weight(f, 0)[c]) +
+                       t.weight_numbers.number(t.weight(f, 1)[c]) + offset[c];
       if (!with_normals)
         continue;
       const auto normal = sum(t, v, f, t.position_layers, t.normal_layers, t.first_normal_weight());
@@ -335,15 +348,12 @@ void measure(const VatSource& source, const VatOptions& options, const Basis& ba
 Json description(const VatSource& source, const Basis& basis, const Textures& t,
                  const VatResult& result) {
   Json clips = Json::array();
-  uint32_t first = 0;
-  for (const ClipTiming& clip : source.clips) {
+  for (const VatClip& clip : source.clips)
     clips.push_back({{"name", clip.name},
-                     {"first_frame", first},
+                     {"first_frame", clip.first_frame},
                      {"frame_count", clip.frame_count},
-                     {"rate", clip.rate.value()},
+                     {"rate", clip.rate},
                      {"loop", clip.loop}});
-    first += clip.frame_count;
-  }
   Json json{{"form", "basis"},
             {"basis", result.files[0].name},
             {"weights", result.files[1].name},
@@ -367,10 +377,9 @@ VatResult attempt(const VatSource& source, const VatOptions& options, const Basi
   const Basis basis = find_basis(source, options, bounds);
   Textures t = filled(source, options, basis);
   VatResult result;
-  t.basis = result.add_texture(source.name + "_basis", t.basis,
-                               options.png ? TexelKind::kPng16 : TexelKind::kExrHalf);
-  t.weights = result.add_texture(source.name + "_weights", t.weights,
-                                 options.png ? TexelKind::kPng16 : TexelKind::kExrFloat);
+  const TexelKind kind = options.png ? TexelKind::kPng16 : TexelKind::kExrHalf;
+  t.basis = result.add_texture(source.name + "_basis", t.basis, kind);
+  t.weights = result.add_texture(source.name + "_weights", t.weights, kind);
   measure(source, options, basis, t, &result.error);
   result.files.push_back(
       {source.name + "_basis.json", description(source, basis, t, result).dump(2) + "\n"});

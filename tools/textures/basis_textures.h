@@ -19,13 +19,14 @@ struct BasisBounds {
 
 /// A basis and weights, in two textures. In frame t, vertex v is at
 ///
-///   rest(v) + weight(t, 0) + sum over j of basis(v, j) weight(t, 1 + j)
+///   rest(v) + weight(t, 0) + weight(t, 1) + sum over j of basis(v, j) weight(t, 2 + j)
 ///
 /// and its normal has the direction of a second sum, with components and weights of its own (Alexa and Mueller 2000, a
-/// number for each vertex and component, a vector for each frame and component). NAME.glb has rest(v), the mean.
+/// number for each vertex and component, a vector for each frame and component). The first two weights, the motion of the whole, have together twice the
+/// digits of one. NAME.glb has rest(v), the mean.
 /// NAME_basis holds four components a texel: a layer of rows for each four, those of positions first. NAME_weights is a
 /// row of vectors for each frame, and more of them beside it where there are more frames than rows. NAME_basis.json has
-/// the numbers that shaders want. EXR: the weights are 32-bit floats. Rows of the basis have at most 1024 texels where
+/// the numbers that shaders want.  Rows of the basis have at most 1024 texels where
 /// that fits, so that places are exact in half floats, too.
 /// Throws Error(kInput) where the bounds want more components than `most`, or textures pass the limit.
 /// A bound that rounded numbers pass is named as left out.

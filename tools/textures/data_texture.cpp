@@ -10,7 +10,6 @@
 #include <csetjmp>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
 #include <memory>
 
 #include <png.h>
@@ -163,9 +162,8 @@ struct ExrImage : EXRImage {
   ExrImage& operator=(const ExrImage&) = delete;
 };
 
-std::string exr_bytes(const DataTexture& texture, bool half) {
-  const float largest = half ? kLargestHalf : std::numeric_limits<float>::max();
-  check_range(texture, -largest, largest);
+std::string exr_bytes(const DataTexture& texture) {
+  check_range(texture, -kLargestHalf, kLargestHalf);
   const size_t count = size_t{texture.width} * texture.height;
   std::vector<float> planes(texture.texels.size());
   unsigned char* starts[4];
@@ -178,7 +176,7 @@ std::string exr_bytes(const DataTexture& texture, bool half) {
     starts[c] = reinterpret_cast<unsigned char*>(plane);
     std::strcpy(channels[c].name, kChannels[c]);
     kinds[c] = TINYEXR_PIXELTYPE_FLOAT;
-    wanted[c] = half ? TINYEXR_PIXELTYPE_HALF : TINYEXR_PIXELTYPE_FLOAT;
+    wanted[c] = TINYEXR_PIXELTYPE_HALF;
   }
   EXRHeader header;  // of arrays that are here
   InitEXRHeader(&header);
@@ -234,7 +232,7 @@ DataTexture read_exr(std::string_view bytes) {
 
 #else
 
-std::string exr_bytes(const DataTexture&, bool) {
+std::string exr_bytes(const DataTexture&) {
   throw Error(ErrorKind::kUnsupported,
               "this build writes no EXR (it found no tinyexr): --image png");
 }
@@ -248,8 +246,7 @@ DataTexture read_exr(std::string_view) {
 }  // namespace
 
 std::string texture_bytes(const DataTexture& texture, TexelKind kind) {
-  return kind == TexelKind::kPng16 ? png16_bytes(texture)
-                                   : exr_bytes(texture, kind == TexelKind::kExrHalf);
+  return kind == TexelKind::kPng16 ? png16_bytes(texture) : exr_bytes(texture);
 }
 
 DataTexture read_texture(std::string_view bytes, TexelKind kind) {

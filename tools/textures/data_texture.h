@@ -30,9 +30,8 @@ struct DataTexture {
 
 /// The numbers of a file.
 enum class TexelKind : uint8_t {
-  kPng16,     ///< 0 to 1 in steps of 1/65535, rounded
-  kExrHalf,   ///< 16-bit floats
-  kExrFloat,  ///< 32-bit floats
+  kPng16,    ///< 0 to 1 in steps of 1/65535, rounded
+  kExrHalf,  ///< 16-bit floats
 };
 
 /// The bytes of a PNG or EXR (scanlines by zip) with red, green, blue, alpha. Throws Error(kInput) for a number that

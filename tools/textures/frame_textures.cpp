@@ -143,15 +143,12 @@ void set(float* texel, const Vector& x, double alpha = 1) {
 
 Json openvat_json(const VatSource& source, const Range& range) {
   Json animations = Json::object();
-  uint32_t first = 0;
-  for (const ClipTiming& clip : source.clips) {
-    const std::string name = clip.name.empty() ? source.name : clip.name;
-    animations[name] = {{"startFrame", first},
-                        {"endFrame", first + clip.frame_count - 1},
-                        {"framerate", clip.rate.value()},
-                        {"looping", clip.loop}};
-    first += clip.frame_count;
-  }
+  for (const VatClip& clip : source.clips)
+    animations[clip.name.empty() ? source.name : clip.name] = {
+        {"startFrame", clip.first_frame},
+        {"endFrame", clip.first_frame + clip.frame_count - 1},
+        {"framerate", clip.rate},
+        {"looping", clip.loop}};
   return {
       {"os-remap", {{"Min", range.least}, {"Max", range.largest}, {"Frames", source.frame_count}}},
       {"animations", animations}};
@@ -202,7 +199,7 @@ Json houdini_json(const VatSource& source, const Range& range) {
                        {"Bound Min Y", least[1]},
                        {"Bound Min Z", least[2]},
                        {"Frame Count", source.frame_count},
-                       {"Houdini FPS", source.clips[0].rate.value()},
+                       {"Houdini FPS", source.clips[0].rate},
                        {"Two Position Textures", 0}}});
 }
 

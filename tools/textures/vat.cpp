@@ -47,10 +47,9 @@ double VatError::rms_angle() const {
 
 DataTexture VatResult::add_texture(const std::string& name, const DataTexture& texture,
                                    TexelKind kind) {
-  const uint64_t bytes = kind == TexelKind::kExrFloat ? 16 : 8;
   files.push_back({name + (kind == TexelKind::kPng16 ? ".png" : ".exr"),
                    texture_bytes(texture, kind), texture.width, texture.height,
-                   bytes * texture.width * texture.height});
+                   uint64_t{8} * texture.width * texture.height});
   return read_texture(files.back().bytes, kind);
 }
 

@@ -18,13 +18,22 @@
 
 namespace anicodec::tools {
 
+/// Frames that are played by a name.
+struct VatClip {
+  std::string name;
+  uint32_t first_frame = 0,
+           frame_count = 0;  ///< of a loop whose last frame repeats the first, without it
+  double rate = 24;          ///< frames a second
+  bool loop = false;
+};
+
 /// A clip as textures get it. `frames` gives the positions of the clip's vertices, y up, in metres, each as often as asked.
 struct VatSource {
   std::string name;  ///< of the files
   const TexelMesh& mesh;
   FrameSource frames;
   uint32_t frame_count = 0;
-  std::vector<ClipTiming> clips;  ///< one at least
+  std::vector<VatClip> clips;  ///< one at least
 };
 
 struct VatOptions {

@@ -71,6 +71,34 @@ TEST_F(ExportVatCommand, TurnsAndScales) {
   EXPECT_NEAR(box["max"][1].get<double>(), double{most} / 100, 0.02 * double{most - least} / 100);
 }
 
+TEST_F(ExportVatCommand, TakesLengthsInTheirUnit) {
+  EXPECT_LE(export_vat({"--json", "--rmse", "2mm"}).json()["rmse"], 0.002);
+}
+
+TEST_F(ExportVatCommand, LoopsLeaveOutARepeatedFrame) {
+  MeshSequence clip = limb();
+  std::ranges::copy(clip.frame(0), clip.frame(clip.frame_count - 1).begin());
+  write_sequence(folder_ / "limb.pc2", clip, {.overwrite = true});
+  for (const auto& [options, frames] :
+       {std::pair{std::vector<std::string>{}, 12}, {{"--loop"}, 11}}) {
+    std::vector<std::string> encode = {"encode",
+                                       folder_ / "limb.obj",
+                                       folder_ / "limb.pc2",
+                                       "-o",
+                                       folder_ / "limb.anic",
+                                       "--lossless",
+                                       "-q",
+                                       "-f"};
+    encode.insert(encode.end(), options.begin(), options.end());
+    ASSERT_EQ(anicodec(encode).status, 0);
+    ASSERT_EQ(export_vat({"-f"}).status, 0);
+    const auto json = nlohmann::json::parse(folder_.read("out/limb_basis.json"));
+    EXPECT_EQ(json["clips"][0]["frame_count"], frames);
+    EXPECT_EQ(json["clips"][0]["loop"], !options.empty());
+    EXPECT_EQ(json["frames"], 12);
+  }
+}
+
 TEST_F(ExportVatCommand, TellsAsJson) {
   const nlohmann::json json =
       export_vat({"--form", "houdini", "--image", "png", "--json", "--frames", "::3"}).json();

@@ -22,14 +22,13 @@ VatResult expect_basis(const MeshSequence& clip, const VatOptions& options, doub
   VatResult result = make_basis(source, options, bounds);
   const auto json = nlohmann::json::parse(file_of(result, "clip_basis.json").bytes);
   auto number = [&](const char* name) { return json[name].get<uint32_t>(); };
-  const DataTexture basis = read_texture(file_of(result, json["basis"]).bytes,
-                                         options.png ? TexelKind::kPng16 : TexelKind::kExrHalf);
-  const DataTexture weights = read_texture(file_of(result, json["weights"]).bytes,
-                                           options.png ? TexelKind::kPng16 : TexelKind::kExrFloat);
+  const TexelKind kind = options.png ? TexelKind::kPng16 : TexelKind::kExrHalf;
+  const DataTexture basis = read_texture(file_of(result, json["basis"]).bytes, kind);
+  const DataTexture weights = read_texture(file_of(result, json["weights"]).bytes, kind);
   EXPECT_LE(std::max({basis.width, basis.height, weights.width, weights.height}), options.max_size);
   const uint32_t rows = number("rows"), layers = number("position_layers"),
                  normal_layers = number("normal_layers"),
-                 columns = 1 + 4 * (layers + normal_layers);
+                 columns = 2 + 4 * (layers + normal_layers);
   const GlbSurface surface(file_of(result, "clip.glb").bytes);
   auto weight = [&](uint32_t f, uint32_t column, size_t c) {
     const float* w = weights.at(column + f / weights.height * columns, f % weights.height);
@@ -64,9 +63,9 @@ VatResult expect_basis(const MeshSequence& clip, const VatOptions& options, doub
       [&](uint32_t f, uint32_t v) {
         V3 x = surface.rest(v);
         for (size_t c = 0; c < 3; ++c)
-          x[c] += weight(f, 0, c);
-        return ShownVertex{add(x, f, v, 0, layers, 1),
-                           add({}, f, v, layers, normal_layers, 1 + 4 * layers)};
+          x[c] += weight(f, 0, c) + weight(f, 1, c);
+        return ShownVertex{add(x, f, v, 0, layers, 2),
+                           add({}, f, v, layers, normal_layers, 2 + 4 * layers)};
       });
   return result;
 }

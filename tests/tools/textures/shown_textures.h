@@ -49,7 +49,7 @@ inline VatSource source_of(const MeshSequence& clip, const TexelMesh& mesh) {
           mesh,
           frames_of(clip),
           clip.frame_count,
-          {{"turn", clip.frame_count, clip.rate, 0, {}, clip.loop}}};
+          {{"turn", 0, clip.frame_count, clip.rate.value(), clip.loop}}};
 }
 
 inline const VatFile& file_of(const VatResult& result, const std::string& name) {
