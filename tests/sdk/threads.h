@@ -5,6 +5,7 @@
 
 #include "sdk/base/parallel_for.h"
 
+#include <cstdint>
 #include <thread>
 #include <vector>
 
@@ -27,6 +28,16 @@ inline HostThreads three_threads() {
       thread.join();
   };
   return threads;
+}
+
+/// Calls work(t) for every t below count, each in a thread, and waits for all.
+template <typename Work>
+void in_threads(uint32_t count, const Work& work) {
+  std::vector<std::thread> threads;
+  for (uint32_t t = 0; t < count; ++t)
+    threads.emplace_back([&work, t] { work(t); });
+  for (std::thread& thread : threads)
+    thread.join();
 }
 
 }  // namespace anicodec
