@@ -26,7 +26,7 @@ DECODING = ("api", "stream", "clip", "learning", "chunk", "faces", "pose", "entr
 #: Files beside the seeds that the build makes.
 MORE_SEEDS = {"api": ["tests/conformance"], "stream": ["tests/conformance"], "clip": ["tests/conformance"],
               "learning": ["tests/conformance/streams"]}
-ROUND = 60  # seconds that a target runs before the next has its turn
+ROUND = 300  # seconds that a target runs before the next has its turn
 LONGEST = 24576  # bytes of an input
 SLOW = 120  # seconds of the clock, on a busy machine, that an input may take
 BUILDS = {"fuzz": ["--preset", "fuzz"],
@@ -67,9 +67,14 @@ class Campaign:
         folder.mkdir(parents=True, exist_ok=True)
         return folder
 
+    def take_seeds(self, programs, name):
+        """Puts into the corpus what reaches more than it does."""
+        subprocess.run([programs / f"{name}_fuzz", "-merge=1", f"-max_len={LONGEST}", self.corpus(name), *seeds(programs, name)],
+                       check=True, capture_output=True)
+
     def run(self, programs, name, seconds, runs):
         """Executions of a turn."""
-        command = [programs / f"{name}_fuzz", self.corpus(name), *seeds(programs, name), f"-max_total_time={seconds}",
+        command = [programs / f"{name}_fuzz", self.corpus(name), f"-max_total_time={seconds}",
                    "-print_final_stats=1", f"-timeout={SLOW}", "-rss_limit_mb=2048", f"-max_len={LONGEST}",
                    f"-artifact_prefix={self.folder / 'found'}/{name}-"]
         if runs:
@@ -87,8 +92,9 @@ class Campaign:
         return done
 
     def run_all(self, programs, seconds, runs, jobs):
-        start, total = time.monotonic(), 0
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+            list(pool.map(lambda name: self.take_seeds(programs, name), self.targets))
+            start, total = time.monotonic(), 0
             while (left := seconds - (time.monotonic() - start)) > 0 and not 0 < runs <= total:
                 turn = max(1, int(min(ROUND, left * jobs / len(self.targets))))
                 total += sum(pool.map(lambda name: self.run(programs, name, turn, runs - total if runs else 0), self.targets))
