@@ -31,14 +31,14 @@ async function inPage(body, argument) {
     await page.goto(`${server.url}/page`);
     const result = await page.evaluate(body, argument);
     assert.deepEqual(messages, []);
-    return { result, picture: await page.screenshot() };
+    return result;
   }, { browser });
 }
 
 test('opens in a worker what opens in the page, bit for bit, and reports damage', { skip }, async () => {
   const names = files.filter(({ what }) => what === 'valid').map(({ file }) => file);
   const damaged = Array.from({ length: 60 }, (_, i) => i * 7919);
-  const { result } = await inPage(async ({ names: all, damaged: flips }) => {
+  const result = await inPage(async ({ names: all, damaged: flips }) => {
     const { Anicodec } = await import('anicodec');
     const outcome = { same: 0, draco: 0, refused: {} };
     let last;
@@ -94,7 +94,7 @@ test('opens in a worker what opens in the page, bit for bit, and reports damage'
 });
 
 test('three.js shows, plays and hits a clip', { skip }, async () => {
-  const { result } = await inPage(async () => {
+  const result = await inPage(async () => {
     const THREE = await import('three');
     const { AnicLoader } = await import('anicodec/three');
     const seen = [], mesh = await new Promise((resolve, reject) =>
@@ -137,7 +137,7 @@ test('three.js shows, plays and hits a clip', { skip }, async () => {
 });
 
 test('a mixer of three.js plays the clips of a file, and fades them into each other', { skip }, async () => {
-  const { result } = await inPage(async () => {
+  const result = await inPage(async () => {
     const { AnimationMixer } = await import('three');
     const { AnicLoader } = await import('anicodec/three');
     const mesh = await new AnicLoader().loadAsync('/tests/conformance/clips.anic'), { clip } = mesh, [a, b] = ['clip of 70', 'clip of 29'];
@@ -178,7 +178,7 @@ test('a mixer of three.js plays the clips of a file, and fades them into each ot
 });
 
 test('three.js has the materials of a clip', { skip: skip || (looks ? false : 'ANICODEC_COMMAND names no command') }, async () => {
-  const { result } = await inPage(async () => {
+  const result = await inPage(async () => {
     const { AnicLoader } = await import('anicodec/three'), mesh = await new AnicLoader().loadAsync('/looks.anic');
     const wood = mesh.parts[0].material.find(({ name }) => name === 'wood'), { baseColour } = wood.userData.anic;
     return { colour: wood.color.toArray().map((x, c) => Math.abs(x - baseColour[c])), material: [wood.roughness, wood.metalness, wood.transparent, wood.opacity, wood.userData.anic.normalImage] };
@@ -188,7 +188,7 @@ test('three.js has the materials of a clip', { skip: skip || (looks ? false : 'A
 });
 
 test('the motion of the whole moves an object of three.js on', { skip }, async () => {
-  const { result } = await inPage(async () => {
+  const result = await inPage(async () => {
     const THREE = await import('three'), { AnicLoader } = await import('anicodec/three');
     const load = () => new AnicLoader().setOptions({ inPlace: true }).loadAsync('/tests/conformance/walk.anic');
     const far = [];
@@ -217,7 +217,7 @@ test('the motion of the whole moves an object of three.js on', { skip }, async (
 });
 
 test('GLTFLoader plays scenes whose meshes move by a clip', { skip }, async () => {
-  const { result } = await inPage(async () => {
+  const result = await inPage(async () => {
     const { AnimationMixer } = await import('three');
     const { GLTFLoader } = await import('three/addons/loaders/GLTFLoader.js');
     const { AnicGLTFExtension } = await import('anicodec/three');
@@ -248,7 +248,7 @@ test('GLTFLoader plays scenes whose meshes move by a clip', { skip }, async () =
 });
 
 test('groups stay on points of the surface, in scenes and their clones too', { skip }, async () => {
-  const { result } = await inPage(async () => {
+  const result = await inPage(async () => {
     const THREE = await import('three'), { GLTFLoader } = await import('three/addons/loaders/GLTFLoader.js'), SkeletonUtils = await import('three/addons/utils/SkeletonUtils.js');
     const { AnicGLTFExtension, AnicLoader } = await import('anicodec/three'), outcome = { far: [], turned: [] }, [a, b] = ['clip of 70', 'clip of 29'];
     const load = async () => (await new GLTFLoader().register((parser) => new AnicGLTFExtension(parser)).loadAsync('/moving.glb')).scene;
@@ -316,7 +316,7 @@ test('groups stay on points of the surface, in scenes and their clones too', { s
 });
 
 test('three.js shows fields as colours', { skip }, async () => {
-  const { result } = await inPage(async () => {
+  const result = await inPage(async () => {
     const THREE = await import('three'), { AnicLoader } = await import('anicodec/three'), outcome = {};
     const load = (name) => new AnicLoader().loadAsync(`/tests/conformance/${name}`), mesh = await load('heated.anic'), { geometry } = mesh.parts[0];
     outcome.fields = mesh.fields;
@@ -349,7 +349,7 @@ test('three.js shows fields as colours', { skip }, async () => {
 });
 
 test('texture coordinates and colours of a scene move', { skip: skip || (texture ? false : 'ANICODEC_COMMAND names no command') }, async () => {
-  const { result } = await inPage(async () => {
+  const result = await inPage(async () => {
     const { GLTFLoader } = await import('three/addons/loaders/GLTFLoader.js'), { AnicGLTFExtension } = await import('anicodec/three');
     const { scene, userData: { anicPlayers: [player] } } = await new GLTFLoader().register((parser) => new AnicGLTFExtension(parser)).loadAsync('/texture.glb');
     return [0, 0.5, 1].map((time) => {
@@ -461,7 +461,7 @@ test('the viewer shows all of a clip beside its panels, on a phone too', { skip:
 test('the graphics card plays instances as the CPU does', { skip }, async (t) => {
   let byCard = 0;
   for (const { file } of files.filter(({ what }) => what === 'valid')) {
-    const { result } = await inPage(async (name) => {
+    const result = await inPage(async (name) => {
       const THREE = await import('three');
       const { Anicodec } = await import('anicodec');
       const { AnicInstances, AnicMesh } = await import('anicodec/three');

@@ -117,7 +117,8 @@ test('a component of React plays a clip as its props say', { skip }, async () =>
       const outcome = { steps, apart: mesh !== other && mesh.clip === other.clip };
       steps.other = far(shown(other), clip.positions(0.5, undefined, { clip: 'clip of 29' }));
       show({ clip: 'clip of 29', fade: 0.1 });
-      await wait(300);
+      for (let tries = 0; tries < 500 && mesh.current !== 'clip of 29'; ++tries)
+        await wait(20);
       outcome.clip = mesh.current;
       show({ playing: false });
       await next();
