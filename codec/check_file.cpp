@@ -142,7 +142,8 @@ BoundsRecord bounds_of(const Clip& clip, uint32_t number) {
     Box box = box_of(played);
     float size = 0;
     for (size_t c = 0; c < 3; ++c)
-      size = std::max({size, box.high[c] - box.low[c], std::abs(box.low[c]) / 16, std::abs(box.high[c]) / 16});
+      size = std::max(
+          {size, box.high[c] - box.low[c], std::abs(box.low[c]) / 16, std::abs(box.high[c]) / 16});
     for (size_t c = 0; c < 3; ++c) {
       box.low[c] -= size * kMargin;
       box.high[c] += size * kMargin;
@@ -164,14 +165,14 @@ CheckedFile check_file(const Bytes& file, const EncoderInput& input,
   for (const InputClip& source : input.clips) {
     MeasuredClip& measured = clips.emplace_back();
     measured.positions = compare_positions(clip, input, source.frames);
-    if (clip.limits().segments[clip.by_frame()[0]].exact && !has_all_bits(clip, input, source.frames))
+    if (clip.limits().segments[clip.by_frame()[0]].exact &&
+        !has_all_bits(clip, input, source.frames))
       throw Error(ErrorKind::kInternal, "the encoded file does not have the source's positions");
     for (AttributeResult& result : *attributes) {
       const auto of = std::ranges::find(stored, result.number, &StoredAttribute::number);
       const AttributeError error = measure(clip, input, source.frames, *of, first_frame);
       if (error.max_error > result.asked)
-        throw Error(ErrorKind::kInternal,
-                    result.name + ": the error is above what was asked for");
+        throw Error(ErrorKind::kInternal, result.name + ": the error is above what was asked for");
       result.max_error = std::max(result.max_error, error.max_error);
       result.rmse = std::hypot(
           result.rmse,

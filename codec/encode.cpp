@@ -107,8 +107,9 @@ void cut_timing(const FrameRun& part, MeshSequence& sequence) {
 Target below_rounding(Target target, double bound) {
   if (target.metric == ErrorMetric::kMaxError) {
     if (target.value <= 2 * bound)
-      throw Error(ErrorKind::kUsage, "the largest error asked for is too small for floats to keep beside the "
-                                     "motion of the whole");
+      throw Error(ErrorKind::kUsage,
+                  "the largest error asked for is too small for floats to keep beside the "
+                  "motion of the whole");
     target.value -= bound;
   } else if (target.metric == ErrorMetric::kKg || target.metric == ErrorMetric::kRmse) {
     target.value *= 1 - 1e-5;
@@ -130,17 +131,20 @@ std::shared_ptr<const EncodedPose> pose_of_parts(const EncoderInput& input, cons
   return encode_reference_pose(pose, origin, step, input.layout, bytes_per_nanosecond(smallest));
 }
 
-EncodeResult encode_within(MeshSequence sequence, const EncodeOptions& options, const Progress& progress,
-                           std::shared_ptr<MemoryBudget> memory) {
+EncodeResult encode_within(MeshSequence sequence, const EncodeOptions& options,
+                           const Progress& progress, std::shared_ptr<MemoryBudget> memory) {
   const double whole_diagonal = diagonal(sequence);
-  const std::vector<ClipGoal> asked = clip_goals(options.target, options.cap, clip_diagonals(sequence), whole_diagonal);
+  const std::vector<ClipGoal> asked =
+      clip_goals(options.target, options.cap, clip_diagonals(sequence), whole_diagonal);
   const Target target = largest_target(asked);
   const bool lossless = is_lossless(options.target);
   if (lossless && options.surface_change)
-    throw Error(ErrorKind::kUsage, "lossless is what keeps the source's own positions: none that were moved before");
+    throw Error(ErrorKind::kUsage,
+                "lossless is what keeps the source's own positions: none that were moved before");
   if (target.metric == ErrorMetric::kNone && !options.keyframes)
     throw Error(ErrorKind::kUsage, "an error, a size, or a number of key-frames must be asked for");
-  const InterpolationChoice interpolation = options.interpolation.value_or(InterpolationChoice::kLinear);
+  const InterpolationChoice interpolation =
+      options.interpolation.value_or(InterpolationChoice::kLinear);
   const bool searches_keyframes =
       options.basis == BasisChoice::kAuto && interpolation == InterpolationChoice::kAuto;
   if (interpolation != InterpolationChoice::kLinear && !options.keyframes &&
@@ -169,7 +173,8 @@ EncodeResult encode_within(MeshSequence sequence, const EncodeOptions& options, 
     if (options.part)
       throw Error(ErrorKind::kUsage, "the motion of the whole is of a clip, not of a part");
     if (is_motion(target.metric))
-      throw Error(ErrorKind::kUsage, "an error of the motion cannot be kept with the motion of the whole apart");
+      throw Error(ErrorKind::kUsage,
+                  "an error of the motion cannot be kept with the motion of the whole apart");
     whole = sequence.positions;
     root = take_root_motion(whole_diagonal, &sequence);
   }
@@ -225,8 +230,8 @@ EncodeResult encode_within(MeshSequence sequence, const EncodeOptions& options, 
 
   const Bytes file = coded.file(record, input.layout);
   std::vector<AttributeResult>& attributes = coded.attributes.results;
-  const CheckedFile checked =
-      check_file(file, input, stored, options.part ? options.part->first : 0, options.learning, &attributes);
+  const CheckedFile checked = check_file(
+      file, input, stored, options.part ? options.part->first : 0, options.learning, &attributes);
   const std::vector<MeasuredClip>& measured = checked.clips;
   EncodeResult result = result_of(measured, input);
   for (size_t c = 0; c < measured.size(); ++c) {
@@ -240,8 +245,9 @@ EncodeResult encode_within(MeshSequence sequence, const EncodeOptions& options, 
     result.clips.push_back({std::string(clip.name.begin(), clip.name.end()),
                             input.clips[c].frames.count, rates[c], clip.kg, clip.rmse,
                             clip.max_error, clip.max_displacement_error, clip.diagonal});
-    const FileMeasures measures{clip.kg,     clip.rmse,       clip.max_error, clip.max_displacement_error,
-                                file.size(), result.vertices, result.frames};
+    const FileMeasures measures{
+        clip.kg,     clip.rmse,       clip.max_error, clip.max_displacement_error,
+        file.size(), result.vertices, result.frames};
     if (!is_kept(asked[c].target, asked[c].cap, measures))
       throw Error(ErrorKind::kInternal, "the encoded file does not keep what was asked");
   }
@@ -273,7 +279,8 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   if (plan.threads == threads)
     return encode_within(std::move(sequence), options, progress, memory);
   EncodeResult result;
-  with_threads(plan.threads, [&] { result = encode_within(std::move(sequence), options, progress, memory); });
+  with_threads(plan.threads,
+               [&] { result = encode_within(std::move(sequence), options, progress, memory); });
   return result;
 }
 

@@ -152,7 +152,8 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
   const double length = diagonal_of(scene);
   const Spread spread = spread_of(scene);
   if (options.root_motion)
-    throw Error(ErrorKind::kUsage, "the motion of the whole can be apart in clips of one mesh only");
+    throw Error(ErrorKind::kUsage,
+                "the motion of the whole can be apart in clips of one mesh only");
   EncodeOptions of_mesh = options;
   of_mesh.target = shared(options.target, spread, length);
   if (options.cap)
@@ -183,7 +184,8 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
     const double own = EncodingMemory::of(mesh.sequence, {}).positions();
     waiting -= own;
     // A mesh that is there at several times stays until the last of them is encoded.
-    of_mesh.most_bytes = most_bytes_beside(waiting + (present_in.size() > 1 ? own : 0), options.most_bytes);
+    of_mesh.most_bytes =
+        most_bytes_beside(waiting + (present_in.size() > 1 ? own : 0), options.most_bytes);
     std::vector<EncodeResult> results =
         naming(mesh, [&] { return encode_runs(std::move(mesh), of_mesh, progress); });
     counts.add(present_in, results[0].vertices, results[0].faces);
@@ -200,7 +202,8 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
       all.attributes.insert(all.attributes.end(), result.attributes.begin(),
                             result.attributes.end());
       all.trials.insert(all.trials.end(), result.trials.begin(), result.trials.end());
-      all.search_notes.insert(all.search_notes.end(), result.search_notes.begin(), result.search_notes.end());
+      all.search_notes.insert(all.search_notes.end(), result.search_notes.begin(),
+                              result.search_notes.end());
       parts.push_back(
           {std::move(result), {{name, {}}, static_cast<uint16_t>(m), present_in[r].first}});
     }

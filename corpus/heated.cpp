@@ -46,7 +46,8 @@ MeshSequence heated(ClipSize size) {
   });
   Attribute uv{AttributeKind::kUv, "TEXCOORD_0", AttributeDomain::kVertex, 2, size.frames, {}};
   Attribute colour{AttributeKind::kColour, "COLOR_0", AttributeDomain::kVertex, 4, size.frames, {}};
-  Attribute heat{AttributeKind::kCustom, "temperature", AttributeDomain::kVertex, 1, size.frames, {}};
+  Attribute heat{
+      AttributeKind::kCustom, "temperature", AttributeDomain::kVertex, 1, size.frames, {}};
   const auto first_of_other = static_cast<uint32_t>(half.vertices.size() / 2);
   for (uint32_t f = 0; f < size.frames; ++f) {
     const double time = f / 24.0;

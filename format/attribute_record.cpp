@@ -111,8 +111,8 @@ Status AttributeRecord::read(ByteView view, const Limits::Mesh& mesh, AttributeR
     }
     numbers += numbers_of(a, mesh);
   }
-  const bool announced = labels_left == 0 && numbers == mesh.attribute_numbers &&
-                         r.position() == mesh.attribute_head;
+  const bool announced =
+      labels_left == 0 && numbers == mesh.attribute_numbers && r.position() == mesh.attribute_head;
   out->stream = r.raw(r.remaining());
   return r.ok() && announced ? Status::kOk : Status::kRecord;
 }

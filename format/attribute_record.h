@@ -38,7 +38,7 @@ struct AttributeHeader {
   AttributeKind kind = AttributeKind::kUv;
   AttributeDomain domain = AttributeDomain::kVertex;
   String name;
-  Vector<Grid> grids;          ///< one for each component, empty for labels
+  Vector<Grid> grids;  ///< one for each component, empty for labels
   Vector<String> labels;
   Vector<MaterialLook> looks;  ///< of materials: one for each label, or none
 

@@ -59,10 +59,12 @@ void BoundsRecord::set(const Vector<Box>& frames, uint32_t shared) {
     std::array<uint8_t, 6> steps = {};
     for (size_t c = 0; c < 3; ++c) {
       // The most steps that leave the box outside.
-      while (steps[c] < 255 && side(all.low[c], all.high[c], static_cast<uint8_t>(steps[c] + 1)) <= run.low[c])
+      while (steps[c] < 255 &&
+             side(all.low[c], all.high[c], static_cast<uint8_t>(steps[c] + 1)) <= run.low[c])
         ++steps[c];
       uint8_t& high = steps[3 + c];
-      while (high < 255 && side(all.high[c], all.low[c], static_cast<uint8_t>(high + 1)) >= run.high[c])
+      while (high < 255 &&
+             side(all.high[c], all.low[c], static_cast<uint8_t>(high + 1)) >= run.high[c])
         ++high;
     }
     boxes.push_back(steps);
@@ -97,7 +99,8 @@ Status BoundsRecord::read(ByteView view, uint32_t frames, BoundsRecord* out) {
   for (float& x : out->all.high)
     x = r.f32();
   for (size_t c = 0; c < 3; ++c)
-    valid &= std::isfinite(out->all.low[c]) && std::isfinite(out->all.high[c]) && out->all.low[c] <= out->all.high[c];
+    valid &= std::isfinite(out->all.low[c]) && std::isfinite(out->all.high[c]) &&
+             out->all.low[c] <= out->all.high[c];
   const uint32_t count = box_count(frames, out->every);
   if (!r.ok() || !valid || r.remaining() / 6 < count)
     return Status::kRecord;

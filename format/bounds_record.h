@@ -27,7 +27,8 @@ inline constexpr uint32_t kFramesOfBox = 64;
 struct BoundsRecord {
   uint32_t every = 0;  ///< frames that share a box, the last box fewer; 0: all share `all`
   Box all = {};
-  Vector<std::array<uint8_t, 6>> boxes;  ///< distances of the low, then of the high sides from those of `all`
+  Vector<std::array<uint8_t, 6>>
+      boxes;  ///< distances of the low, then of the high sides from those of `all`
 
   /// The box of a frame of the segment, at least as large as what it was made from.
   Box of_frame(uint32_t frame) const;
@@ -39,7 +40,9 @@ struct BoundsRecord {
   static BoundsRecord unmeasured(uint32_t frames, uint32_t shared);
 
   /// Whether there are no boxes: neither set(), nor read.
-  bool is_empty() const { return all.low == all.high && all.low[0] == 0 && all.low[1] == 0 && all.low[2] == 0; }
+  bool is_empty() const {
+    return all.low == all.high && all.low[0] == 0 && all.low[1] == 0 && all.low[2] == 0;
+  }
 
   Bytes write() const;
   /// `frames`: of the segment.

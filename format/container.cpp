@@ -68,7 +68,8 @@ void ContainerWriter::add(const char (&type)[5], bool required, uint16_t mesh, u
   add(chunk, mesh, segment, std::move(payload));
 }
 
-void ContainerWriter::add_copied(const char (&type)[5], uint16_t mesh, uint32_t segment, Bytes payload) {
+void ContainerWriter::add_copied(const char (&type)[5], uint16_t mesh, uint32_t segment,
+                                 Bytes payload) {
   Chunk chunk;
   chunk.type = chunk_type(type);
   chunk.copied = true;
@@ -157,7 +158,8 @@ Failure ContainerReader::open(ByteView file, Extent extent) {
     return failure(Status::kTruncated, file.size, "the file ends inside the header");
   if (major != kVersionMajor)
     return failure(Status::kVersion, 8,
-                   major == 0 ? "the file is a draft of the format, 0.x, which is no longer read: encode its source again"
+                   major == 0 ? "the file is a draft of the format, 0.x, which is no longer read: "
+                                "encode its source again"
                               : "the file is of a later major version of the format");
   uint64_t table_end = head_bytes(file);
   if (table_end > file.size)
@@ -231,7 +233,8 @@ void ContainerReader::add_meshes(const ContainerReader& before, ByteView bytes) 
   for (Chunk& chunk : chunks_)
     chunk.offset += before.file_size_;
   Vector<Chunk> meshes;
-  std::copy_if(before.chunks_.begin(), before.chunks_.end(), std::back_inserter(meshes), is_of_mesh);
+  std::copy_if(before.chunks_.begin(), before.chunks_.end(), std::back_inserter(meshes),
+               is_of_mesh);
   const auto at = std::find_if(chunks_.begin(), chunks_.end(),
                                [](const Chunk& chunk) { return chunk.segment != kNoSegment; });
   chunks_.insert(at, meshes.begin(), meshes.end());

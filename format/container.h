@@ -24,7 +24,8 @@ inline constexpr size_t kLeastEntryBytes = 10;  // without mesh and segment, of 
 
 /// Features, as bits of the header (spec/13-extending.md, section 2). The meshes of a continuation are
 /// those of a file before it in a live stream; the other three are the optional profile.
-inline constexpr uint64_t kContinuation = 1, kDracoFeature = 2, kMsgiFeature = 4, kLearningFeature = 8;
+inline constexpr uint64_t kContinuation = 1, kDracoFeature = 2, kMsgiFeature = 4,
+                          kLearningFeature = 8;
 
 /// Chunk types are four ASCII characters, the first one in the lowest byte.
 constexpr uint32_t chunk_type(const char (&name)[5]) {
@@ -42,9 +43,9 @@ inline constexpr uint32_t kNoSegment = 0xFFFFFFFF;
 
 struct Chunk {
   uint32_t type = 0;
-  bool required = false;          ///< a reader that does not know the type refuses the file
-  bool copied = false;            ///< an editor that does not know the type keeps it, whatever it changes
-  uint16_t mesh = kNoMesh;        ///< the mesh it belongs to
+  bool required = false;    ///< a reader that does not know the type refuses the file
+  bool copied = false;      ///< an editor that does not know the type keeps it, whatever it changes
+  uint16_t mesh = kNoMesh;  ///< the mesh it belongs to
   uint32_t segment = kNoSegment;  ///< the segment it belongs to
   uint32_t checksum = 0;          ///< low 32 bits of XXH64 of the payload
   uint64_t offset = 0;            ///< of the payload, from the start of the file

@@ -38,7 +38,8 @@ struct Spliced {
     }
     Bytes out = container_head(chunks, features);
     for (size_t i = 0; i < chunks.size(); ++i) {
-      const ByteView payload = is_replaced(chunks[i]) ? ByteView(limits) : files[i]->unchecked(chunks[i]);
+      const ByteView payload =
+          is_replaced(chunks[i]) ? ByteView(limits) : files[i]->unchecked(chunks[i]);
       out.insert(out.end(), payload.data, payload.data + payload.size);
     }
     return out;

@@ -69,7 +69,7 @@ class HostAllocator {
     if (memory_)
       return static_cast<T*>(memory_->take(size, alignof(T)));
     if constexpr (kOverAligned)
-      return static_cast<T*>(::operator new(size, std::align_val_t{alignof(T)}));
+      return static_cast<T*>(::operator new (size, std::align_val_t{alignof(T)}));
     else
       return static_cast<T*>(::operator new(size));
   }
@@ -78,7 +78,7 @@ class HostAllocator {
     if (memory_)
       memory_->give_back(memory, count * sizeof(T));
     else if constexpr (kOverAligned)
-      ::operator delete(memory, std::align_val_t{alignof(T)});
+      ::operator delete (memory, std::align_val_t{alignof(T)});
     else
       ::operator delete(memory);
   }

@@ -21,7 +21,10 @@ inline bool is_utf8(ByteView text) {
     const uint8_t first = text.data[i++];
     if (first < 0x80)
       continue;
-    const size_t more = first >= 0xC2 && first < 0xE0 ? 1 : first >= 0xE0 && first < 0xF0 ? 2 : first >= 0xF0 && first < 0xF5 ? 3 : 0;
+    const size_t more = first >= 0xC2 && first < 0xE0   ? 1
+                        : first >= 0xE0 && first < 0xF0 ? 2
+                        : first >= 0xF0 && first < 0xF5 ? 3
+                                                        : 0;
     if (more == 0 || text.size - i < more)
       return false;
     const uint8_t second = text.data[i];
@@ -56,7 +59,8 @@ inline uint32_t nesting(ByteView json) {
 
 /// Whether chunk META may hold these bytes, as far as a decoder looks at them: it does not read the JSON itself.
 inline bool is_metadata(ByteView text) {
-  return text.size > 0 && text.size <= kMaxMetadataBytes && is_utf8(text) && nesting(text) <= kMaxMetadataNesting;
+  return text.size > 0 && text.size <= kMaxMetadataBytes && is_utf8(text) &&
+         nesting(text) <= kMaxMetadataNesting;
 }
 
 }  // namespace anicodec

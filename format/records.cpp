@@ -48,14 +48,15 @@ bool is_supported(uint8_t basis, uint8_t reconstruction, uint8_t flags) {
   return basis <= static_cast<uint8_t>(BasisKind::kEigentrajectories) &&
          (is(reconstruction, Reconstruction::kLinear) ||
           (is(reconstruction, Reconstruction::kMsgi) && keyframes)) &&
-         !(flags & ~(kExact | kRegions | kOfAttribute | kDraco | kLearns)) && (!(flags & kLearns) || !keyframes) &&
-         (!(flags & kRegions) || trajectories) && (!(flags & kDraco) || keyframes) &&
+         !(flags & ~(kExact | kRegions | kOfAttribute | kDraco | kLearns)) &&
+         (!(flags & kLearns) || !keyframes) && (!(flags & kRegions) || trajectories) &&
+         (!(flags & kDraco) || keyframes) &&
          (!(flags & kOfAttribute) || (trajectories && flags == kOfAttribute));
 }
 
 void write_mesh(const Limits::Mesh& m, ByteWriter& w) {
-  for (uint32_t x : {m.source_vertices, m.coded_vertices, m.triangles, m.polygons, m.corners,
-                     m.attributes})
+  for (uint32_t x :
+       {m.source_vertices, m.coded_vertices, m.triangles, m.polygons, m.corners, m.attributes})
     w.varint(x);
   if (m.attributes > 0) {
     w.varint(m.attribute_labels);
@@ -229,8 +230,8 @@ Status Limits::read(ByteView view, Limits* out) {
   }
   for (const Segment& s : out->segments) {
     const Mesh& mesh = out->meshes[s.mesh];
-    if (is_of_attribute(s) && (s.attribute >= mesh.attributes || s.entries == 0 ||
-                               s.entries > mesh.elements(s.domain)))
+    if (is_of_attribute(s) &&
+        (s.attribute >= mesh.attributes || s.entries == 0 || s.entries > mesh.elements(s.domain)))
       return Status::kRecord;
   }
   return Status::kOk;
@@ -383,8 +384,9 @@ bool read_clip(ByteReader& r, ClipRecord* out) {
     *x = r.f64();
   out->surface_error = out->massaged ? r.f64() : 0;
   out->surface_error_mean = out->massaged ? r.f64() : 0;
-  for (double x : {out->asked_value, out->max_error, out->rmse, out->kg,
-                   out->max_displacement_error, out->diagonal, out->surface_error, out->surface_error_mean}) {
+  for (double x :
+       {out->asked_value, out->max_error, out->rmse, out->kg, out->max_displacement_error,
+        out->diagonal, out->surface_error, out->surface_error_mean}) {
     if (!is_length(x))
       return false;
   }

@@ -39,15 +39,16 @@ enum class Reconstruction : uint8_t { kLinear = 0, kMsgi = 1 };
 /// Chunk LIMI: all that a host needs to know how much memory opening and playing will take.
 struct Limits {
   struct Mesh {
-    uint32_t source_vertices = 0;  ///< what the user gets back
-    uint32_t coded_vertices = 0;   ///< distinct trajectories
-    uint32_t triangles = 0;        ///< of the coded faces
-    uint32_t polygons = 0;         ///< what the user gets back
-    uint32_t corners = 0;          ///< of those polygons
-    uint32_t attributes = 0;         ///< 0: no chunk ATTR
-    uint32_t attribute_labels = 0;   ///< of all attributes of polygons together
-    uint32_t attribute_head = 0;     ///< bytes of ATTR that describe the attributes, before the values
-    uint64_t attribute_numbers = 0;  ///< values, labels or shared values of all elements of all attributes
+    uint32_t source_vertices = 0;   ///< what the user gets back
+    uint32_t coded_vertices = 0;    ///< distinct trajectories
+    uint32_t triangles = 0;         ///< of the coded faces
+    uint32_t polygons = 0;          ///< what the user gets back
+    uint32_t corners = 0;           ///< of those polygons
+    uint32_t attributes = 0;        ///< 0: no chunk ATTR
+    uint32_t attribute_labels = 0;  ///< of all attributes of polygons together
+    uint32_t attribute_head = 0;  ///< bytes of ATTR that describe the attributes, before the values
+    uint64_t attribute_numbers =
+        0;  ///< values, labels or shared values of all elements of all attributes
 
     uint32_t elements(AttributeDomain domain) const {
       return domain == AttributeDomain::kCorner    ? corners
@@ -71,13 +72,14 @@ struct Limits {
     uint32_t draco_bytes = 0;      ///< of the Draco bitstream; 0: the key-frames are native
     Reconstruction reconstruction = Reconstruction::kLinear;
     bool exact = false;  ///< the positions of its frames are there bit for bit (ExactRecord)
-    bool learns = false;  ///< what it learns is kept for one that continues it (SegmentRecord::continued)
+    bool learns =
+        false;  ///< what it learns is kept for one that continues it (SegmentRecord::continued)
     /// The quantity that it moves: positions, or three components of an attribute, in number from
     /// first_component on, a multiple of three.
     uint32_t attribute = kPositions;
     uint32_t first_component = 0;
     AttributeDomain domain = AttributeDomain::kVertex;  ///< of the attribute
-    uint32_t entries = 0;                               ///< of the attribute: distinct ones among its elements
+    uint32_t entries = 0;  ///< of the attribute: distinct ones among its elements
 
     /// Whether two segments move the same: then they share no frame.
     bool same_track(const Segment& other) const {
@@ -161,14 +163,14 @@ struct ClipRecord {
   Vector<double> times;   ///< seconds from start_time, one per frame; empty when even
 
   ErrorMetric asked = ErrorMetric::kNone;
-  double asked_value = 0;                   ///< KG in per cent, lengths in scene units
-  double max_error = 0;                     ///< measured, scene units
-  double rmse = 0;                          ///< measured, scene units
-  double kg = 0;                            ///< measured, per cent
-  double max_displacement_error = 0;        ///< measured, of a move from frame to frame, scene units
-  double diagonal = 0;                      ///< of the box around all frames
-  double surface_error = 0;                 ///< when massaged: how far the surface moved at most
-  double surface_error_mean = 0;            ///< and on average
+  double asked_value = 0;             ///< KG in per cent, lengths in scene units
+  double max_error = 0;               ///< measured, scene units
+  double rmse = 0;                    ///< measured, scene units
+  double kg = 0;                      ///< measured, per cent
+  double max_displacement_error = 0;  ///< measured, of a move from frame to frame, scene units
+  double diagonal = 0;                ///< of the box around all frames
+  double surface_error = 0;           ///< when massaged: how far the surface moved at most
+  double surface_error_mean = 0;      ///< and on average
   Vector<AttributeError> attribute_errors;  ///< ascending by mesh and attribute
   Vector<ClipEvent> events;                 ///< ascending by time
 };
@@ -222,11 +224,11 @@ struct PoseRecord {
 
 /// Chunk SEGM: one range of frames of one mesh.
 struct SegmentRecord {
-  uint64_t hash = 0;    ///< IntegerHash of the segment's decoded integers
-  ByteView parameters;  ///< of the kind
-  ByteView pose;        ///< key-frames
-  ByteView motion;      ///< rigid motion, empty when there is none
-  ByteView weights;     ///< time weights
+  uint64_t hash = 0;       ///< IntegerHash of the segment's decoded integers
+  ByteView parameters;     ///< of the kind
+  ByteView pose;           ///< key-frames
+  ByteView motion;         ///< rigid motion, empty when there is none
+  ByteView weights;        ///< time weights
   uint64_t continued = 0;  ///< segment_identity() of the one that this continues; 0: it begins anew
 
   Bytes write() const;

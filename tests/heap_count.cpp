@@ -161,7 +161,8 @@ void free(void* memory) noexcept {
 // Only calls of the program come here: the heap maps its own by other names.
 void* mmap(void* address, size_t size, int protection, int flags, int file, off_t offset) noexcept {
   // NOLINTNEXTLINE(performance-no-int-to-ptr): so the system gives it
-  void* const block = reinterpret_cast<void*>(::syscall(SYS_mmap, address, size, protection, flags, file, offset));
+  void* const block =
+      reinterpret_cast<void*>(::syscall(SYS_mmap, address, size, protection, flags, file, offset));
   if (block != MAP_FAILED)
     HeapCount::note(static_cast<int64_t>(size));
   return block;

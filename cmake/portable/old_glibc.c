@@ -54,7 +54,8 @@ int close_range(unsigned first, unsigned last, int flags) {
 }
 
 /* Waits by the clock of the day, which nobody should set meanwhile; callers look at their own clock afterwards. */
-int pthread_cond_clockwait(pthread_cond_t* condition, pthread_mutex_t* mutex, clockid_t clock, const struct timespec* until) {
+int pthread_cond_clockwait(pthread_cond_t* condition, pthread_mutex_t* mutex, clockid_t clock,
+                           const struct timespec* until) {
   struct timespec there, here;
   clock_gettime(clock, &there);
   clock_gettime(CLOCK_REALTIME, &here);

@@ -117,7 +117,8 @@ void pack(const MatrixView& a, Index first, Index depth, std::vector<double>& st
   });
 }
 
-void add_tiles(const MatrixView& a, const MatrixView& b, const Tiles& tiles, Eigen::MatrixXd& sums) {
+void add_tiles(const MatrixView& a, const MatrixView& b, const Tiles& tiles,
+               Eigen::MatrixXd& sums) {
   std::vector<double> strips;
   for (Index d = 0; d < a.rows(); d += kProductDepth) {
     const Index depth = std::min(kProductDepth, a.rows() - d);

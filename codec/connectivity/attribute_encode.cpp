@@ -19,7 +19,7 @@
 namespace anicodec {
 namespace {
 
-constexpr double kLargest = 1 << 28;  // of the integers on a grid
+constexpr double kLargest = 1 << 28;   // of the integers on a grid
 constexpr double kRounding = 0x1p-23;  // of a value in binary32, against its magnitude
 constexpr float kLargestExact = 1 << 24, kLargestExactMoving = 1 << 18;
 

@@ -27,8 +27,8 @@ struct MeshLayout {
   Bytes face_map;                      ///< chunk FMAP
   Bytes root;                          ///< chunk ROOT, empty for none
   uint32_t root_frames = 0;            ///< Limits::root_frames
-  String metadata;             ///< chunk META, empty for none
-  bool has_bounds = false;     ///< whether segments of positions have a chunk BNDS
+  String metadata;                     ///< chunk META, empty for none
+  bool has_bounds = false;             ///< whether segments of positions have a chunk BNDS
   Bytes attributes;  ///< chunk ATTR, empty for none: encode_attributes() puts it there
   Vector<uint32_t> vertex_source;   ///< source vertex of each canonical vertex
   Vector<uint32_t> polygon_source;  ///< source polygon of each canonical polygon,

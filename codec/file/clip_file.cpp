@@ -52,7 +52,8 @@ Bytes clip_file(const ClipsRecord& record, const MeshLayout& layout,
   if (!layout.root.empty())
     file.add("ROOT", true, kNoMesh, kNoSegment, layout.root);
   if (!layout.metadata.empty())
-    file.add_copied("META", kNoMesh, kNoSegment, Bytes(layout.metadata.begin(), layout.metadata.end()));
+    file.add_copied("META", kNoMesh, kNoSegment,
+                    Bytes(layout.metadata.begin(), layout.metadata.end()));
   for (uint32_t i = 0; i < segments.size(); ++i) {
     if (layout.has_bounds && segments[i]->sizes.attribute == kPositions)
       file.add_copied("BNDS", kMesh, i, bounds_record(*segments[i]));

@@ -153,7 +153,8 @@ class Edited {
     if (failure.ok())
       failure = opened.check_hashes();
     if (failure.status == Status::kSegmentMissing)
-      fail(base_.file, ErrorKind::kUnsupported, "has a segment that continues one of a clip that would be gone");
+      fail(base_.file, ErrorKind::kUnsupported,
+           "has a segment that continues one of a clip that would be gone");
     if (!failure.ok())
       fail(base_.file, ErrorKind::kInternal,
            std::string("the file with other clips is not valid: ") + status_string(failure.status));
@@ -162,11 +163,13 @@ class Edited {
 
  private:
   /// Adds the chunks of a segment that stand in this place, under its new number.
-  static void add_chunks(const Moved& segment, uint32_t number, ChunkPlace place, ContainerWriter& out) {
+  static void add_chunks(const Moved& segment, uint32_t number, ChunkPlace place,
+                         ContainerWriter& out) {
     for (const Chunk& chunk : segment.from->reader.chunks()) {
-      const bool goes_along = chunk.copied || std::ranges::any_of(kSegmentChunks, [&](const char(*type)[5]) {
-                                return chunk.type == chunk_type(*type);
-                              });
+      const bool goes_along =
+          chunk.copied || std::ranges::any_of(kSegmentChunks, [&](const char(*type)[5]) {
+            return chunk.type == chunk_type(*type);
+          });
       if (goes_along && chunk.segment == segment.number && place_of(chunk) == place)
         out.add(chunk, 0, number, copy(segment.from->payload(chunk)));
     }

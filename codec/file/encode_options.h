@@ -57,8 +57,8 @@ struct EncodeOptions {
   /// those of the whole sequence, and the same in all parts. Not with key-frames.
   std::optional<FrameRun> part;
   std::string metadata;  ///< a JSON object to store in the file (spec/06, section 14); empty: none
-  bool bounds = true;  ///< whether the file has boxes of its frames, to cull it without decoding
-  std::string encoder;  ///< name and version to store in the file
+  bool bounds = true;    ///< whether the file has boxes of its frames, to cull it without decoding
+  std::string encoder;   ///< name and version to store in the file
   /// The sequence is not the source itself but one that massage() made of it: to store in the file.
   std::optional<SurfaceChange> surface_change;
   /// Takes the motion of the whole out of the positions, where there is any, and stores it apart.
@@ -78,7 +78,8 @@ struct EncodeOptions {
   /// What the search of eigenshapes and eigentrajectories does without, by the names of
   /// search_means(): to measure what each is worth.
   std::vector<std::string> without;
-  uint64_t most_bytes = 0;  ///< of memory (docs/memory.md): OverMemory where more would be held, fewer threads before; 0: any
+  uint64_t most_bytes =
+      0;  ///< of memory (docs/memory.md): OverMemory where more would be held, fewer threads before; 0: any
   /// Searches for the fewest bytes, whatever opening takes; else a millisecond of it, as estimated, is worth
   /// some: bytes_per_nanosecond().
   bool smallest = false;
@@ -96,7 +97,7 @@ struct Trial {
 struct AttributeResult {
   AttributeKind kind = AttributeKind::kCustom;
   std::string name;
-  uint32_t number = 0;  ///< in the file
+  uint32_t number = 0;      ///< in the file
   uint32_t components = 0;  ///< of its basis; 0: it stays within the error of the first frame
   size_t bytes = 0;         ///< of its segments
   double asked = 0;         ///< largest error allowed
@@ -109,9 +110,9 @@ struct ClipResult {
   std::string name;
   uint32_t frames = 0;
   FrameRate rate = {};
-  double kg = 0;         ///< per cent
-  double rmse = 0;       ///< scene units
-  double max_error = 0;  ///< scene units
+  double kg = 0;                      ///< per cent
+  double rmse = 0;                    ///< scene units
+  double max_error = 0;               ///< scene units
   double max_displacement_error = 0;  ///< of a move from frame to frame, scene units
   double diagonal = 0;
 };
@@ -126,11 +127,11 @@ struct EncodeResult {
   uint64_t positions = 0;  ///< vertices of all frames together
   BasisKind kind = BasisKind::kKeyframes;
   uint32_t components = 0;
-  double kg = 0;         ///< per cent
-  double rmse = 0;       ///< scene units
-  double max_error = 0;  ///< scene units
-  double max_displacement_error = 0;  ///< of a move from frame to frame, scene units
-  double diagonal = 0;  ///< of the box around all frames of all clips
+  double kg = 0;                            ///< per cent
+  double rmse = 0;                          ///< scene units
+  double max_error = 0;                     ///< scene units
+  double max_displacement_error = 0;        ///< of a move from frame to frame, scene units
+  double diagonal = 0;                      ///< of the box around all frames of all clips
   std::vector<AttributeResult> attributes;  ///< those that change
   std::vector<ClipResult> clips;            ///< in the order of their frames
   std::vector<FrameRun> segments;           ///< of positions: clips in one share its basis

@@ -76,22 +76,26 @@ double EncodingMemory::kept(const EncodeOptions& options) const {
 }
 
 double EncodingMemory::thread(const EncodeOptions& options) const {
-  return kAny + (options.effort > Effort::kFast ? kTrials : kFewTrials) * vertices + kTimes * frames;
+  return kAny + (options.effort > Effort::kFast ? kTrials : kFewTrials) * vertices +
+         kTimes * frames;
 }
 
 double EncodingMemory::regions(double count) const {
   return positions() + count * products(vertices / count) / 4;
 }
 
-double EncodingMemory::basis(BasisKind kind, double components, Effort effort, double regions) const {
+double EncodingMemory::basis(BasisKind kind, double components, Effort effort,
+                             double regions) const {
   const bool shapes = kind == BasisKind::kEigenshapes, few = effort <= Effort::kFast;
   const double of_vertex = shapes ? (few ? kFewShapes : kShapes)
                            : few  ? kFewTrajectories
                                   : kTrajectories;
-  const double of_frame = (shapes ? kTimeOfShapes : kTimeOfTrajectories) * components +
-                          (shapes ? kTrialOfShapes : kTrialOfTrajectories) * std::max(0.0, components - kFirst);
+  const double of_frame =
+      (shapes ? kTimeOfShapes : kTimeOfTrajectories) * components +
+      (shapes ? kTrialOfShapes : kTrialOfTrajectories) * std::max(0.0, components - kFirst);
   const double more = components > kFirst ? sketch(vertices, components) : 0;
-  return of_vertex * std::max(0.0, components - kUsual) * vertices + regions * of_frame * frames + more;
+  return of_vertex * std::max(0.0, components - kUsual) * vertices + regions * of_frame * frames +
+         more;
 }
 
 MemoryShare MemoryBudget::take(double bytes, const std::string& stage) {

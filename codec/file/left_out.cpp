@@ -26,9 +26,11 @@ std::vector<std::string> records_with_fields(const ContainerReader& file) {
   ClipsRecord clips;
   for (const Chunk& chunk : file.chunks()) {
     const ByteView payload = file.unchecked(chunk);
-    if (chunk.type == chunk_type("LIMI") && Limits::read(payload, &limits) == Status::kOk && limits.write().size() != payload.size)
+    if (chunk.type == chunk_type("LIMI") && Limits::read(payload, &limits) == Status::kOk &&
+        limits.write().size() != payload.size)
       found.emplace_back("LIMI");
-    if (chunk.type == chunk_type("CLIP") && ClipsRecord::read(payload, limits, &clips) == Status::kOk &&
+    if (chunk.type == chunk_type("CLIP") &&
+        ClipsRecord::read(payload, limits, &clips) == Status::kOk &&
         clips.write().size() != payload.size)
       found.emplace_back("CLIP");
   }
@@ -48,11 +50,13 @@ std::vector<std::string> list_left_out(const std::vector<ClipPart>& files, ByteV
       const std::string start = part.name + ": leaves out chunk " + chunk_name(chunk.type);
       if (!chunk.copied && !is_known_chunk(chunk.type))
         lines.push_back(start + ", which this version does not know");
-      else if (chunk.copied && chunk.segment == kNoSegment && !has_same(result, chunk, file.unchecked(chunk)))
+      else if (chunk.copied && chunk.segment == kNoSegment &&
+               !has_same(result, chunk, file.unchecked(chunk)))
         lines.push_back(start + ": only that of the first file is kept");
     }
     for (const std::string& record : records_with_fields(file))
-      lines.push_back(part.name + ": leaves out fields of chunk " + record + " that this version does not know");
+      lines.push_back(part.name + ": leaves out fields of chunk " + record +
+                      " that this version does not know");
   }
   return lines;
 }

@@ -38,7 +38,8 @@ template <class Part>
 void check_known_chunks(const Part& opened, const ClipPart& part) {
   const Failure failure = check_chunks(opened.reader);
   if (failure.status == Status::kChunkUnknown)
-    fail(part, ErrorKind::kUnsupported, "has a chunk " + chunk_name(failure.chunk) + " that this version does not know");
+    fail(part, ErrorKind::kUnsupported,
+         "has a chunk " + chunk_name(failure.chunk) + " that this version does not know");
   if (!failure.ok())
     fail(part, ErrorKind::kCorrupt, status_string(failure.status));
 }
@@ -49,7 +50,8 @@ template <class Part>
 void add_copied(const Part& part, uint16_t mesh, uint16_t as, ContainerWriter& file) {
   for (const Chunk& chunk : part.reader.chunks()) {
     if (chunk.copied && chunk.mesh == mesh && chunk.segment == kNoSegment)
-      file.add(chunk, as, kNoSegment, Bytes(part.payload(chunk).data, part.payload(chunk).data + chunk.size));
+      file.add(chunk, as, kNoSegment,
+               Bytes(part.payload(chunk).data, part.payload(chunk).data + chunk.size));
   }
 }
 

@@ -44,7 +44,8 @@ std::vector<ClipGoal> clip_goals(const Target& target, const std::optional<Targe
 }
 
 const Target& largest_target(const std::vector<ClipGoal>& goals) {
-  return std::ranges::max_element(goals, {}, [](const ClipGoal& goal) { return goal.target.value; })->target;
+  return std::ranges::max_element(goals, {}, [](const ClipGoal& goal) { return goal.target.value; })
+      ->target;
 }
 
 std::optional<double> allowed_bytes(const Target& target, uint32_t vertices, uint32_t frames) {

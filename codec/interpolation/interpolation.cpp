@@ -3,11 +3,11 @@
 #include "codec/interpolation/interpolation.h"
 
 #include "codec/algebra/rigid_motion.h"
-#include "codec/parallel/task_threads.h"
 #include "codec/interpolation/deformation_gradients.h"
 #include "codec/interpolation/edge_refinement.h"
 #include "codec/interpolation/resting_parts.h"
 #include "codec/interpolation/vertex_blending.h"
+#include "codec/parallel/task_threads.h"
 #include "codec/sequence/error.h"
 #include "sdk/msgi/msgi.h"
 

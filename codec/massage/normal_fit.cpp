@@ -16,8 +16,8 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using Matrix = Eigen::SparseMatrix<double>;
 
-constexpr double kFromMesh = 0.5;        // weight of a distance, against those from the surface
-constexpr double kRest = 0.05;           // weight of the height itself
+constexpr double kFromMesh = 0.5;       // weight of a distance, against those from the surface
+constexpr double kRest = 0.05;          // weight of the height itself
 constexpr double kFitTolerance = 1e-3;  // of the solver, relative
 
 /// The equations of one round.

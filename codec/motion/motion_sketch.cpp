@@ -4,8 +4,8 @@
 
 #include "codec/algebra/leading_eigenpairs.h"
 #include "codec/algebra/trajectory_gram.h"
-#include "codec/parallel/parallel.h"
 #include "codec/motion/vertex_products.h"
+#include "codec/parallel/parallel.h"
 #include "codec/sequence/frame_array.h"
 
 #include <algorithm>
@@ -48,8 +48,8 @@ class MotionSketch::Rows {
       return times_trajectory_gram(clip, origin, columns);
     };
     const Index wanted = components + kOfBase, rank = static_cast<Index>(clip.vertex_count);
-    const Eigenpairs pairs =
-        leading_eigenspace(times_gram, sums.size(), wanted, std::min(2 * wanted, rank + kBeyondRank));
+    const Eigenpairs pairs = leading_eigenspace(times_gram, sums.size(), wanted,
+                                                std::min(2 * wanted, rank + kBeyondRank));
     energies_ = pairs.values;
     const Index rows = pairs.values.size();
     positions_.resize(clip.frame_count * static_cast<size_t>(3 * rows));

@@ -31,8 +31,8 @@ double BoundSearch::next(double aim, double bound) {
     exponent_.usual =
         std::clamp((other->outcome - nearest.outcome) / (other->setting - nearest.setting),
                    exponent_.least, exponent_.most);
-  double setting = nearest.setting + std::clamp((log_aim - nearest.outcome) / exponent_.usual,
-                                                -kFurthest, kFurthest);
+  double setting = nearest.setting +
+                   std::clamp((log_aim - nearest.outcome) / exponent_.usual, -kFurthest, kFurthest);
   double inside = -std::numeric_limits<double>::infinity(), outside = -inside;
   for (const Trial& t : trials_) {
     if (t.outcome <= log_bound)

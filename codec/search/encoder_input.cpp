@@ -95,7 +95,8 @@ EncoderInput::EncoderInput(const EncoderInput& all, size_t number)
   clip.tolerance = 0;
 }
 
-EncoderInput::EncoderInput(const EncoderInput& clip_input, const Topology& surface, FrameArray trajectories)
+EncoderInput::EncoderInput(const EncoderInput& clip_input, const Topology& surface,
+                           FrameArray trajectories)
     : layout(clip_input.layout),
       coded(std::move(trajectories)),
       clips(clip_input.clips),
@@ -130,14 +131,16 @@ void EncoderInput::keep_whole(const FrameArray& positions) {
   whole.reserve(coded.size());
   for (size_t f = 0; f < sequence.frame_count; ++f) {
     for (uint32_t v : layout.coded_source) {
-      const auto at = positions.begin() + ptrdiff_t{3} * static_cast<ptrdiff_t>(f * sequence.vertex_count + v);
+      const auto at =
+          positions.begin() + ptrdiff_t{3} * static_cast<ptrdiff_t>(f * sequence.vertex_count + v);
       whole.insert(whole.end(), at, at + 3);
     }
   }
   const size_t row = size_t{3} * layout.sizes.coded_vertices;
   for (InputClip& clip : clips) {
     for (size_t i = row * clip.frames.first; i < row * (clip.frames.first + clip.frames.count); ++i)
-      clip.largest_coordinate = std::max(clip.largest_coordinate, std::abs(static_cast<double>(whole[i])));
+      clip.largest_coordinate =
+          std::max(clip.largest_coordinate, std::abs(static_cast<double>(whole[i])));
     largest_coordinate = std::max(largest_coordinate, clip.largest_coordinate);
   }
 }
@@ -176,16 +179,18 @@ void EncoderInput::bound_clips(const std::vector<ClipGoal>& goals) {
     InputClip& clip = clips[c];
     const double own = clip.kg_reference / clip.frames.count, value = goals[c].target.value;
     if (bounds_mean || differ)
-      clip.tolerance = metric == ErrorMetric::kKg ? (own > 0 ? std::sqrt(own / mean) : 1) : value / most;
+      clip.tolerance =
+          metric == ErrorMetric::kKg ? (own > 0 ? std::sqrt(own / mean) : 1) : value / most;
     const bool is_cap = metric == ErrorMetric::kMaxError;
     clip.cap = is_cap ? value : goals[c].cap;
     if (clip.cap == 0)  // per cent of nothing: all vertices are one point that stands still
       clip.cap.reset();
     if (clip.cap && *clip.cap < clip.smallest_bound())
-      throw Error(ErrorKind::kUsage, (sequence.clips.empty() ? "" : "clip '" + sequence.clips[c].name + "': ") +
-                                         "the maximum error is below what float32 keeps at these coordinates; the "
-                                         "smallest possible is " +
-                                         four_digits(clip.smallest_bound()));
+      throw Error(ErrorKind::kUsage,
+                  (sequence.clips.empty() ? "" : "clip '" + sequence.clips[c].name + "': ") +
+                      "the maximum error is below what float32 keeps at these coordinates; the "
+                      "smallest possible is " +
+                      four_digits(clip.smallest_bound()));
     if (clip.cap && is_cap)
       *clip.cap -= clip.smallest_bound() / 4;  // room for rounding
   }

@@ -106,7 +106,7 @@ struct EncoderInput {
 
   MeshSequence sequence;  ///< the source without its positions
   MeshLayout layout;
-  FrameArray coded;               ///< frames x coded vertices x 3
+  FrameArray coded;  ///< frames x coded vertices x 3
   /// Where the motion of the whole was taken out: the same with it. Else empty.
   FrameArray whole;
   std::vector<InputClip> clips;   ///< one at least, in the order of their frames
@@ -127,7 +127,9 @@ struct EncoderInput {
   MemoryShare take_memory(size_t frame_count, const char* stage, const Bytes& bytes) const {
     if (!memory)
       return {};
-    return memory->take(bytes(EncodingMemory{static_cast<double>(copies.size()), static_cast<double>(frame_count)}), stage);
+    return memory->take(
+        bytes(EncodingMemory{static_cast<double>(copies.size()), static_cast<double>(frame_count)}),
+        stage);
   }
 
   /// Whether a search may do what has this name among search_means().

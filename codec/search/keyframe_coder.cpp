@@ -99,7 +99,9 @@ std::optional<CodedPart> KeyframeCoder::coded(const MsgiFit& fit, double roundin
   const auto count = static_cast<double>(fit.fit.keyframes.size());
   const MemoryShare memory =
       input_.take_memory(input_.sequence.frame_count, "the key-frames that the error takes",
-                         [&](const EncodingMemory& m) { return m.basis(BasisKind::kKeyframes, count, Effort::kNormal); });
+                         [&](const EncodingMemory& m) {
+                           return m.basis(BasisKind::kKeyframes, count, Effort::kNormal);
+                         });
   double finest = input_.largest_coordinate * 0x1p-21;
   double step = std::max(
       {step_for_rounding_error(fit.fit, rounding_rms), finest, std::numeric_limits<double>::min()});

@@ -57,7 +57,7 @@ constexpr double kJointStep = 0.965;
 constexpr double kWorthOfBest = 1.03, kWorthSearching = 0.99;
 constexpr size_t kMostApproaches = 2;  // of all but the best effort
 constexpr size_t kFewSteps = 4;        // before kinds are compared for the first time
-constexpr size_t kMostFailures = 5;    // steps in a row that do not help end the search, but the best
+constexpr size_t kMostFailures = 5;  // steps in a row that do not help end the search, but the best
 
 size_t most_components(const LinearSettings& settings) {
   return settings.components.empty() ? 0 : std::ranges::max(settings.components);
@@ -422,7 +422,8 @@ double LinearCoder::choose_settings(double rmse, Steps wanted) {
   }
   if (effort_ > Effort::kFast) {
     const std::vector<LinearStep>& all = linear_steps();
-    const auto normal = static_cast<size_t>(std::ranges::find(all, Effort::kBest, &LinearStep::least) - all.begin());
+    const auto normal = static_cast<size_t>(
+        std::ranges::find(all, Effort::kBest, &LinearStep::least) - all.begin());
     for (const size_t end : {kFewSteps, normal, effort_ == Effort::kBest ? all.size() : normal}) {
       std::vector<LinearStep> steps;
       for (; steps_done_ < end; ++steps_done_) {
@@ -491,7 +492,8 @@ double LinearCoder::prepare(double rmse) {
   // One trial tells a size but roughly: what fewer steps end with may be smaller yet.
   std::ranges::reverse(earlier_);
   for (Candidate& earlier : earlier_) {
-    const bool may_be_smaller = approaches_.size() < kMostApproaches && earlier.bytes * (1 - kDoubt) <= least_;
+    const bool may_be_smaller =
+        approaches_.size() < kMostApproaches && earlier.bytes * (1 - kDoubt) <= least_;
     if (may_be_smaller || effort_ == Effort::kBest)
       approaches_.emplace_back(std::move(earlier.choice));
   }
@@ -517,7 +519,8 @@ std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
       continue;
     best = std::move(part);
     choice_ = std::move(approach.choice);
-    worth = std::min(worth, (effort_ == Effort::kBest ? kWorthOfBest : kWorthSearching) * bytes(*best));
+    worth =
+        std::min(worth, (effort_ == Effort::kBest ? kWorthOfBest : kWorthSearching) * bytes(*best));
   }
   approaches_.clear();
   if (thorough_ && best && least_ > 0 &&

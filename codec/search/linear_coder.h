@@ -33,8 +33,8 @@ class LinearCoder : public SegmentCoder {
 
   /// The analysis, of the frames from `first_frame` on, must outlive the coder. What is called bytes below has what
   /// opening is worth added, unless the `smallest` file is wanted.
-  LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis, BasisKind kind, Effort effort,
-              uint32_t layers, bool smallest, uint32_t first_frame = 0);
+  LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis, BasisKind kind,
+              Effort effort, uint32_t layers, bool smallest, uint32_t first_frame = 0);
 
   std::optional<CodedPart> at_rmse(double rmse) override;
   std::optional<CodedPart> near_rmse(double rmse) override;

@@ -61,7 +61,8 @@ double motion_error(ErrorMetric metric, const std::vector<CodedPart>& parts,
         [&](uint32_t f) { return original.by_source(input.shown().frame(first + f)); },
         [&](uint32_t f) { return decoded.frame(first + f); }, options);
     const double share = clip.tolerance > 0 ? clip.tolerance : 1;
-    worst = std::max(worst, (options.sted ? compared.sted.sted : compared.max_displacement_error) / share);
+    worst = std::max(worst,
+                     (options.sted ? compared.sted.sted : compared.max_displacement_error) / share);
   }
   return worst;
 }

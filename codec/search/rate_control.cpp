@@ -95,9 +95,10 @@ std::optional<Solution> RateControl::of_all_clips() {
     }
     if (best && allows_msgi())
       try_msgi(&*best);
-    if (options_.basis == BasisChoice::kAuto && keyframe_coders_.empty() && input_.sequence.frame_count > kMostMultiplied)
-      notes_.push_back("key-frames are not tried: the clip has more than " + std::to_string(kMostMultiplied) +
-                       " frames");
+    if (options_.basis == BasisChoice::kAuto && keyframe_coders_.empty() &&
+        input_.sequence.frame_count > kMostMultiplied)
+      notes_.push_back("key-frames are not tried: the clip has more than " +
+                       std::to_string(kMostMultiplied) + " frames");
   }
   return best;
 }
@@ -125,7 +126,8 @@ bool RateControl::tries_keyframes(bool of_any_clip) const {
 
 bool RateControl::allows_msgi() const {
   return tries_keyframes(false) && options_.effort > Effort::kFirst &&
-         options_.interpolation.value_or(InterpolationChoice::kAuto) != InterpolationChoice::kLinear &&
+         options_.interpolation.value_or(InterpolationChoice::kAuto) !=
+             InterpolationChoice::kLinear &&
          input_.layout.sizes.triangles > 0;
 }
 
@@ -133,7 +135,8 @@ void RateControl::try_msgi(Solution* best) {
   const double rmse = input_.rmse(best->squared_error());
   const double keyframe = kBitsOfMsgi / 8 * 3 * input_.layout.sizes.coded_vertices;
   const auto most = static_cast<size_t>(kClearly * static_cast<double>(best->bytes) / keyframe);
-  const size_t count = std::min({most, kMostMsgiKeyframes, size_t{input_.sequence.frame_count} / 2});
+  const size_t count =
+      std::min({most, kMostMsgiKeyframes, size_t{input_.sequence.frame_count} / 2});
   if (count < 2)
     return note("the file has not the bytes of two key-frames");
   const std::optional<double> left =
@@ -142,7 +145,8 @@ void RateControl::try_msgi(Solution* best) {
     return note("the mesh is not for it");
   if (*left > kHopelessMsgi * rmse)
     return note("halfway between " + std::to_string(count) +
-                " key-frames, which take as many bytes, an RMSE of " + four_digits(*left) + " is left");
+                " key-frames, which take as many bytes, an RMSE of " + four_digits(*left) +
+                " is left");
   if (!msgi_coder_)
     msgi_coder_ = std::make_unique<KeyframeCoder>(input_, options_.select, std::nullopt,
                                                   options_.keyframe_poses, Reconstruction::kMsgi);
@@ -156,9 +160,9 @@ void RateControl::try_msgi(Solution* best) {
     return note(error.what());
   }
   const bool wins =
-      solution && (is_size(target_)
-                       ? input_.rmse(solution->squared_error()) < kClearly * rmse
-                       : static_cast<double>(solution->bytes) < kClearly * static_cast<double>(best->bytes));
+      solution && (is_size(target_) ? input_.rmse(solution->squared_error()) < kClearly * rmse
+                                    : static_cast<double>(solution->bytes) <
+                                          kClearly * static_cast<double>(best->bytes));
   if (wins)
     *best = std::move(*solution);
   else
@@ -171,9 +175,11 @@ void RateControl::note(const std::string& reason) {
 
 std::optional<Solution> RateControl::by_keyframes_alone() {
   const bool is_first = keyframe_coders_.empty();
-  if (is_first && options_.interpolation.value_or(InterpolationChoice::kLinear) != InterpolationChoice::kMsgi)
+  if (is_first &&
+      options_.interpolation.value_or(InterpolationChoice::kLinear) != InterpolationChoice::kMsgi)
     add_keyframe_coder(Reconstruction::kLinear);
-  if (is_first && options_.interpolation.value_or(InterpolationChoice::kLinear) != InterpolationChoice::kLinear)
+  if (is_first &&
+      options_.interpolation.value_or(InterpolationChoice::kLinear) != InterpolationChoice::kLinear)
     add_keyframe_coder(Reconstruction::kMsgi);
   std::optional<Solution> best;
   for (std::unique_ptr<KeyframeCoder>& coder : keyframe_coders_) {
@@ -198,9 +204,10 @@ RateControl::LinearCoders RateControl::linear_coders(const LinearAnalysis& analy
   for (BasisKind kind : {BasisKind::kEigentrajectories, BasisKind::kEigenshapes}) {
     BasisChoice choice = kind == BasisKind::kEigenshapes ? BasisChoice::kEigenshapes
                                                          : BasisChoice::kEigentrajectories;
-    const bool wanted = options_.basis == BasisChoice::kAuto
-                            ? options_.effort > Effort::kFirst || kind == BasisKind::kEigentrajectories
-                            : options_.basis == choice;
+    const bool wanted =
+        options_.basis == BasisChoice::kAuto
+            ? options_.effort > Effort::kFirst || kind == BasisKind::kEigentrajectories
+            : options_.basis == choice;
     if (wanted)
       coders.push_back(std::make_unique<LinearCoder>(input_, analysis, kind, options_.effort,
                                                      kLayers, options_.smallest));
@@ -254,10 +261,11 @@ std::optional<Solution> RateControl::by_linear_bases() {
   if (!best || options_.effort == Effort::kFirst)
     return best;
   const BasisKind kind = best->parts[0].encoded.sizes.kind;
-  const auto used =
-      std::ranges::find_if(linear_coders_, [&](const auto& coder) { return coder->kind() == kind; });
+  const auto used = std::ranges::find_if(linear_coders_,
+                                         [&](const auto& coder) { return coder->kind() == kind; });
   std::optional<Solution> cut = cut_in_time(*best, **used);
-  return cut && search_.better(*cut, *best) && search_.keeps_motion(*cut) ? std::move(cut) : std::move(best);
+  return cut && search_.better(*cut, *best) && search_.keeps_motion(*cut) ? std::move(cut)
+                                                                          : std::move(best);
 }
 
 std::optional<Solution> RateControl::cut_in_time(const Solution& whole, const LinearCoder& coder) {
@@ -282,7 +290,10 @@ bool RateControl::beats_keyframes(const Solution& solution) const {
   // of a bit per frame at least.
   constexpr double kBits = 1, kBitsOfWeight = 0.25;
   const auto k = static_cast<double>(analysis_->fewest_fields(solution.squared_error()));
-  return k * (kBits * 3 * input_.layout.sizes.coded_vertices + kBitsOfWeight * input_.sequence.frame_count) / 8 >
+  return k *
+             (kBits * 3 * input_.layout.sizes.coded_vertices +
+              kBitsOfWeight * input_.sequence.frame_count) /
+             8 >
          static_cast<double>(solution.bytes);
 }
 

@@ -297,7 +297,8 @@ double TargetSearch::typical_rmse(SegmentCoder& coder) {
 TrialsLeft TargetSearch::expected(size_t coders, bool are_chosen) const {
   // From searches of dance, horse, chicken, face and flag, default effort (tests/codec/search/recorded_searches.h): of the first
   // coder and of each other one. Cuts in time and key-frames come last.
-  constexpr double kOfOneError = 3, kOfSeveral = 10, kOfSize = 25, kOfOther = 1, kSteps = 13, kLast = 7, kWithoutEffort = 3;
+  constexpr double kOfOneError = 3, kOfSeveral = 10, kOfSize = 25, kOfOther = 1, kSteps = 13,
+                   kLast = 7, kWithoutEffort = 3;
   if (effort_ == Effort::kFirst)
     return {kWithoutEffort, 0};
   double trials = kOfOneError;

@@ -11,12 +11,13 @@
 namespace anicodec {
 namespace {
 
-constexpr uint32_t kShortest = 8;       // frames of a segment
-constexpr uint32_t kLong = 128;         // frames from which the middle is a candidate
-constexpr uint32_t kMostShared = 1500;  // frames of clips that share a basis: each more is a trial of all
-constexpr double kHardCut = 30;         // times the usual squared motion around it
-constexpr double kChunks = 160;         // bytes a segment costs in tables and records
-constexpr double kWorthIt = 0.99;       // a cut must save a hundredth
+constexpr uint32_t kShortest = 8;  // frames of a segment
+constexpr uint32_t kLong = 128;    // frames from which the middle is a candidate
+constexpr uint32_t kMostShared =
+    1500;                        // frames of clips that share a basis: each more is a trial of all
+constexpr double kHardCut = 30;  // times the usual squared motion around it
+constexpr double kChunks = 160;  // bytes a segment costs in tables and records
+constexpr double kWorthIt = 0.99;  // a cut must save a hundredth
 
 }  // namespace
 
@@ -35,7 +36,8 @@ TimeSegmentation::TimeSegmentation(const EncoderInput& input, const LinearCoder&
 }
 
 LinearCoder TimeSegmentation::coder(const LinearAnalysis& analysis, const FrameRun& range) const {
-  LinearCoder coder(input_, analysis, whole_.kind(), Effort::kFast, 1, whole_.smallest(), range.first);
+  LinearCoder coder(input_, analysis, whole_.kind(), Effort::kFast, 1, whole_.smallest(),
+                    range.first);
   coder.settings_of(whole_);
   coder.share_pose(pose_);
   return coder;

@@ -17,11 +17,13 @@ Solution TrialFiles::unlisted(std::vector<CodedPart> parts) const {
     const Limits::Segment& sizes = part.encoded.sizes;
     FrameView frames = input_.frames(sizes.first_frame, sizes.frames);
     if (input_.caps_errors()) {
-      correct(frames, input_.copies, input_.caps(sizes.first_frame, sizes.frames), part.opened, part.encoded);
+      correct(frames, input_.copies, input_.caps(sizes.first_frame, sizes.frames), part.opened,
+              part.encoded);
       part.error = measure(part.opened, frames, input_.copies);
     }
   }
-  const ClipsRecord record = clips_record(input_.sequence, options_, std::vector<ClipGoal>(input_.clips.size()));
+  const ClipsRecord record =
+      clips_record(input_.sequence, options_, std::vector<ClipGoal>(input_.clips.size()));
   solution.bytes = clip_file(record, input_.layout, solution.segments()).size();
   return solution;
 }

@@ -15,7 +15,8 @@ namespace anicodec {
 class TrialFiles {
  public:
   /// Parts are corrected to the caps of the input. Both references must outlive this object.
-  TrialFiles(const EncoderInput& input, const EncodeOptions& options) : input_(input), options_(options) {}
+  TrialFiles(const EncoderInput& input, const EncodeOptions& options)
+      : input_(input), options_(options) {}
 
   Solution put_together(std::vector<CodedPart> parts);
 

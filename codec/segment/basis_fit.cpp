@@ -61,9 +61,9 @@ void BasisFit::set_pose(const Vector<int32_t>& points, const Eigen::Vector3d& or
 }
 
 TimeWeights BasisFit::exact_weights() const {
-  return {basis_.base == Base::kAffine ? project_on_functions(clip_, origin_, functions_)
-                                       : MatrixXd(),
-          basis_.time.leftCols(static_cast<Index>(count_))};
+  return {
+      basis_.base == Base::kAffine ? project_on_functions(clip_, origin_, functions_) : MatrixXd(),
+      basis_.time.leftCols(static_cast<Index>(count_))};
 }
 
 Coefficients BasisFit::targets(double step) const {
@@ -97,7 +97,7 @@ Coefficients BasisFit::targets(double step) const {
       for (Index j = 0; j < k; ++j) {
         double value = block(i, j);
         value -= basis_.base == Base::kAffine ? functions_.row(v).dot(base.col(j * channels + c))
-                                             : still_(v, c) * sums[j];
+                                              : still_(v, c) * sums[j];
         y(v, j * channels + c) = static_cast<float>(value / step);
       }
     }

@@ -16,6 +16,7 @@ namespace {
 using Eigen::Index;
 
 constexpr int kFewestFractionBits = 4;  // with fewer, residency would add to the error
+
 /// Rounds a residual with the cost of its candidates in mind. @pre |residual| < kCoefficientLimit - 1
 int32_t rounded(CoefficientCosts& model, uint32_t v, uint32_t c, double residual, double lambda) {
   double magnitude = std::abs(residual);
@@ -101,7 +102,8 @@ void CoefficientEncoder::take_decoded(DecodedBasis* to) && {
   predictor_ = EncoderPredictor();
   to->coefficients.resize(coefficient_buffer_size(order_.vertex_count(), samples));
   for (size_t i = 0; i < order_.vertex_count(); ++i)
-    std::copy_n(decoded_.row(order_.order[i]).data(), samples, to->coefficients.data() + i * stride);
+    std::copy_n(decoded_.row(order_.order[i]).data(), samples,
+                to->coefficients.data() + i * stride);
   to->order = std::move(order_.order);
 }
 
@@ -127,8 +129,8 @@ bool CoefficientEncoder::pass(CoefficientCosts& model, Coder& coder, const Choos
 /// The residual that is best by itself; nothing if it is too large.
 std::optional<int32_t> CoefficientEncoder::nearest(CoefficientCosts& model, uint32_t i, uint32_t c,
                                                    float prediction) const {
-  const double residual = static_cast<double>(component_[place(i, c)]) -
-                          static_cast<double>(prediction);
+  const double residual =
+      static_cast<double>(component_[place(i, c)]) - static_cast<double>(prediction);
   if (std::abs(residual) >= kCoefficientLimit - 1)
     return std::nullopt;
   return rounded(model, i, c, residual, lambda_);
@@ -232,11 +234,10 @@ std::optional<CoefficientEncoder::Component> CoefficientEncoder::code(size_t j) 
     }
   }
   Component component;
-  component.wide =
-      largest * (1 << kFewestFractionBits) > INT16_MAX || largest_residual > INT16_MAX;
+  component.wide = largest * (1 << kFewestFractionBits) > INT16_MAX || largest_residual > INT16_MAX;
   component.omega = omega_byte(energy / (static_cast<double>(n) * channels_));
   parallel_for(size_t{0}, predictor_.block_count(),
-                    [&](size_t b) { predictor_.update(b, b + 1, component.omega); });
+               [&](size_t b) { predictor_.update(b, b + 1, component.omega); });
   new_weights_ = predictor_.refits();
   predictor_.next_component();
   if (together)

@@ -35,9 +35,8 @@ class CoefficientEncoder {
  public:
   /// `order`: coefficient_order(); `target`: what the coefficients would best be; `continued`: where prediction and models
   /// go on, null: they begin anew.
-  CoefficientEncoder(const LinearSettings& settings, VertexOrder order,
-                     const Vector<int32_t>& pose, Coefficients target, uint32_t channels,
-                     const LearntSegment* continued);
+  CoefficientEncoder(const LinearSettings& settings, VertexOrder order, const Vector<int32_t>& pose,
+                     Coefficients target, uint32_t channels, const LearntSegment* continued);
 
   struct Component {
     uint8_t omega = 0;  ///< for the next component

@@ -52,7 +52,8 @@ double error_of(const IntegerCorrection& c, const float* decoded, const float* o
 }
 
 /// In multiples of `unit` steps.
-IntegerCorrection nearest_correction(const float* decoded, const float* original, double step, int32_t unit) {
+IntegerCorrection nearest_correction(const float* decoded, const float* original, double step,
+                                     int32_t unit) {
   IntegerCorrection c;
   for (size_t i = 0; i < 3; ++i) {
     const double steps = std::round(
@@ -89,9 +90,8 @@ void shorten(const float* decoded, const float* original, double step, int32_t u
 }  // namespace
 
 size_t EncodedSegment::bytes() const {
-  size_t total =
-      parameters.size() + pose.size() + motion.size() + weights.size() + corrections.size() +
-      exact.size();
+  size_t total = parameters.size() + pose.size() + motion.size() + weights.size() +
+                 corrections.size() + exact.size();
   for (const Bytes& layer : layers)
     total += layer.size();
   return total;

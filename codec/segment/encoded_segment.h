@@ -33,18 +33,19 @@ struct Learning {
 struct EncodedSegment {
   Limits::Segment sizes;
   Bytes parameters, pose, motion, weights;
-  Vector<uint32_t> runs;                         ///< frames of each clip; empty: of one
-  std::vector<Bytes> layers;                     ///< chunks BASI
-  size_t coefficient_bytes = 0;                  ///< of the layers, without weights
-  size_t time_weights = 0;                       ///< how many values they are, of bases and components
-  Bytes corrections;                             ///< chunk CORR
-  Bytes exact;                                   ///< chunk DIFF
-  BoundsRecord bounds;                           ///< chunk BNDS, of positions; without numbers until measured
+  Vector<uint32_t> runs;         ///< frames of each clip; empty: of one
+  std::vector<Bytes> layers;     ///< chunks BASI
+  size_t coefficient_bytes = 0;  ///< of the layers, without weights
+  size_t time_weights = 0;       ///< how many values they are, of bases and components
+  Bytes corrections;             ///< chunk CORR
+  Bytes exact;                   ///< chunk DIFF
+  BoundsRecord bounds;           ///< chunk BNDS, of positions; without numbers until measured
   std::shared_ptr<const EncodedPose> reference;  ///< of linear bases; segments may share it
   /// What weights and layers decode to, if they were just encoded: opened once without decoding them.
   std::optional<DecodedBasis> decoded;
-  const LearntSegment* continued = nullptr;  ///< what it was coded to go on with, as long as it is opened; may be null
-  uint64_t continued_identity = 0;           ///< SegmentRecord::continued
+  const LearntSegment* continued =
+      nullptr;  ///< what it was coded to go on with, as long as it is opened; may be null
+  uint64_t continued_identity = 0;  ///< SegmentRecord::continued
   uint64_t hash = 0;
 
   /// Bytes in the file but for what the reference pose takes.

@@ -16,10 +16,10 @@
 namespace anicodec {
 namespace {
 
-constexpr uint32_t kLooksBack = 512;     // frames that one may be predicted from
-constexpr uint32_t kLooksAt = 256;       // vertices by which frames are compared
-constexpr double kFarNearer = 0.25;      // an earlier frame than the last must be so much nearer
-constexpr double kTypicalError = 3e-6;   // of the diagonal; tuned on dance, chicken, flag
+constexpr uint32_t kLooksBack = 512;    // frames that one may be predicted from
+constexpr uint32_t kLooksAt = 256;      // vertices by which frames are compared
+constexpr double kFarNearer = 0.25;     // an earlier frame than the last must be so much nearer
+constexpr double kTypicalError = 3e-6;  // of the diagonal; tuned on dance, chicken, flag
 
 /// Some vertices of all frames, for comparing frames.
 std::vector<float> sample_of(const FrameView& frames) {
@@ -40,7 +40,8 @@ std::vector<uint32_t> references_of(const FrameView& frames) {
   auto distance = [&](uint32_t a, uint32_t b) {
     double sum = 0;
     for (size_t i = 0; i < row; ++i) {
-      const double d = static_cast<double>(sample[a * row + i]) - static_cast<double>(sample[b * row + i]);
+      const double d =
+          static_cast<double>(sample[a * row + i]) - static_cast<double>(sample[b * row + i]);
       sum += d * d;
     }
     return sum;

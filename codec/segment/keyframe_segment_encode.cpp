@@ -228,7 +228,7 @@ Bytes code_natively(const MeshLayout& layout, const Vector<uint32_t>& parents,
 
 /// Codes key-frames.
 void code_poses(const MeshLayout& layout, KeyframePoses coder, const Vector<uint32_t>& parents,
-                   const Vector<Pose>& poses, EncodedSegment* encoded) {
+                const Vector<Pose>& poses, EncodedSegment* encoded) {
   const bool draco =
       coder != KeyframePoses::kNative && code_by_draco(layout, parents, poses, encoded);
   if (draco && coder == KeyframePoses::kDraco)

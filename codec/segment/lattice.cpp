@@ -12,8 +12,8 @@
 namespace anicodec {
 namespace {
 
-constexpr size_t kFewest = 64;  // distinct coordinates to tell a step by
-constexpr double kShare = 0.97;  // of the distinct coordinates that a lattice must be near
+constexpr size_t kFewest = 64;      // distinct coordinates to tell a step by
+constexpr double kShare = 0.97;     // of the distinct coordinates that a lattice must be near
 constexpr double kLeastStep = 0.9;  // roundings of the largest coordinate
 constexpr int kMostDecimals = 9;
 
@@ -102,8 +102,9 @@ bool fits(const std::vector<float>& sorted, uint64_t most, ExactRecord::Lattice*
     equal += ordinal(x) == point;
   }
   lattice->errs = equal < sorted.size();
-  return !lattice->errs || (lattice->count <= most && static_cast<double>(near) >=
-                                                          kShare * static_cast<double>(sorted.size()));
+  return !lattice->errs ||
+         (lattice->count <= most &&
+          static_cast<double>(near) >= kShare * static_cast<double>(sorted.size()));
 }
 
 }  // namespace

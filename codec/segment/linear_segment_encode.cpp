@@ -280,8 +280,8 @@ class LinearEncoder {
   Coefficients targets() const {
     if (!regions())
       return fits_[0].targets(settings_.step);
-    Coefficients all = Coefficients::Zero(static_cast<Index>(clip_.vertex_count),
-                                          static_cast<Index>(count_));
+    Coefficients all =
+        Coefficients::Zero(static_cast<Index>(clip_.vertex_count), static_cast<Index>(count_));
     for (size_t r = 0; r < fits_.size(); ++r) {
       const Coefficients of_region = fits_[r].targets(settings_.step);
       all(basis_.clips->vertices(r), Eigen::seqN(0, of_region.cols())) = of_region;
@@ -357,8 +357,8 @@ std::vector<size_t> component_counts(const LinearBasis& basis, const LinearSetti
     if (!settings.components.empty())
       return std::min(settings.components[std::min(counts.size(), settings.components.size() - 1)],
                       most);
-    const auto scalars = static_cast<double>(shapes ? 3 * vertex_count + frames
-                                                    : vertex_count + 3 * frames);
+    const auto scalars =
+        static_cast<double>(shapes ? 3 * vertex_count + frames : vertex_count + 3 * frames);
     const double smallest = settings.rank_factor * scalars * settings.step * settings.step;
     return static_cast<size_t>((of_region.energies.array() > smallest).count());
   };
@@ -377,7 +377,8 @@ std::optional<EncodedSegment> encode_linear(const FrameView& clip, const LinearB
                                             const LinearSettings& settings,
                                             const MeshLayout& layout,
                                             std::shared_ptr<const EncodedPose> pose,
-                                            const Vector<uint32_t>& runs, const Learning& learning) {
+                                            const Vector<uint32_t>& runs,
+                                            const Learning& learning) {
   return LinearEncoder(clip, basis, settings, layout, runs, learning).run(std::move(pose));
 }
 

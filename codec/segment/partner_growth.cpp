@@ -108,8 +108,8 @@ void PartnerGrowth::push(uint32_t corner) {
   const uint32_t v = table.vertex(beyond);
   if (map_[v] != kNone || (*rules_.taken)[v] != kNone)
     return;
-  const uint32_t a = table.vertex(next_corner(corner)),
-                 b = table.vertex(previous_corner(corner)), o = table.vertex(corner);
+  const uint32_t a = table.vertex(next_corner(corner)), b = table.vertex(previous_corner(corner)),
+                 o = table.vertex(corner);
   const uint32_t x = map_[a], y = map_[b], z = map_[o];
   Eigen::Vector3d off;
   if (!turned_offset(surface_, {a, b, o}, v, {x, y, z}, rules_.mirrored, &off))

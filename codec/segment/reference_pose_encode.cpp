@@ -104,8 +104,7 @@ void code_axis(const MatrixXd& values, Index axis, Vector<int32_t>& integers) {
   for (Index v = n; v-- > 0;) {
     const Step step = steps[static_cast<size_t>(v)][state];
     const int32_t half = lower_half(values(v, axis), step.from) + step.upper;
-    integers[static_cast<size_t>(3 * v + axis)] =
-        2 * half + DependentSteps::parity(step.from);
+    integers[static_cast<size_t>(3 * v + axis)] = 2 * half + DependentSteps::parity(step.from);
     state = step.from;
   }
 }

@@ -19,11 +19,11 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr size_t kMostFrames = 48;             // looked at
+constexpr size_t kMostFrames = 48;                // looked at
 constexpr size_t kMostNumbers = size_t{1} << 24;  // of the trajectories looked at
-constexpr size_t kMostSamples = 1024;          // vertices of a region that its trajectories are found by
-constexpr Index kRank = 8;                     // of them
-constexpr Index kDirect = 64;                  // numbers of a trajectory, from which on few axes are cheaper
+constexpr size_t kMostSamples = 1024;  // vertices of a region that its trajectories are found by
+constexpr Index kRank = 8;             // of them
+constexpr Index kDirect = 64;  // numbers of a trajectory, from which on few axes are cheaper
 constexpr int kRounds = 20, kSmoothings = 3;
 constexpr double kFewestMoves = 0.002;  // of the vertices, in a round that is not the last
 constexpr double kSmall = 0.4;          // of the mean size: a region that loses none
@@ -232,8 +232,7 @@ class RegionSearch {
       for (uint32_t v : piece)
         left[r] += price[r] * models[r].left(v);
     }
-    const auto best =
-        static_cast<uint8_t>(std::ranges::min_element(left) - left.begin());
+    const auto best = static_cast<uint8_t>(std::ranges::min_element(left) - left.begin());
     for (uint32_t v : piece)
       regions_[v] = best;
   }

@@ -29,7 +29,8 @@ std::atomic<uint64_t> on_disk{0};
 // Smaller blocks are never counted: they come and go often, and a mapping costs some microseconds.
 constexpr size_t kSmall = size_t{1} << 20;
 
-constexpr uint64_t kShare = 3;  // of the memory: an encoder takes about twice the frames beside them
+constexpr uint64_t kShare =
+    3;  // of the memory: an encoder takes about twice the frames beside them
 
 std::atomic<uint64_t> frame_limit{half_of_machine() / kShare}, in_memory{0};
 
@@ -67,15 +68,17 @@ class ScratchFile {
   }
 
   ~ScratchFile() { ::close(file_); }
+
   ScratchFile(const ScratchFile&) = delete;
   ScratchFile& operator=(const ScratchFile&) = delete;
 
   int descriptor() const { return file_; }
 
   [[noreturn]] void fail(size_t bytes, int reason) const {
-    throw Error(ErrorKind::kInternal, folder_ + ": " + std::to_string(bytes) +
-                                          " bytes of frames, more than the memory is to hold, find no place: " +
-                                          std::generic_category().message(reason));
+    throw Error(ErrorKind::kInternal,
+                folder_ + ": " + std::to_string(bytes) +
+                    " bytes of frames, more than the memory is to hold, find no place: " +
+                    std::generic_category().message(reason));
   }
 
  private:

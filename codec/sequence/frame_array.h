@@ -39,7 +39,9 @@ struct FrameAllocator {
 
   T* allocate(size_t count) { return static_cast<T*>(detail::allocate_frames(count * sizeof(T))); }
 
-  void deallocate(T* block, size_t count) noexcept { detail::free_frames(block, count * sizeof(T)); }
+  void deallocate(T* block, size_t count) noexcept {
+    detail::free_frames(block, count * sizeof(T));
+  }
 
   bool operator==(const FrameAllocator&) const = default;
 };

@@ -60,7 +60,8 @@ void add_event(const NamedTime& event, ClipTiming* clip) {
                                           : clip->times.back() - clip->times.front();
   const double end = last + 1 / clip->rate.value();
   auto fail = [&](const std::string& text) {
-    throw Error(ErrorKind::kUsage, "event '" + event.name + "' of clip '" + clip->name + "' " + text);
+    throw Error(ErrorKind::kUsage,
+                "event '" + event.name + "' of clip '" + clip->name + "' " + text);
   };
   if (event.name.empty())
     fail("has no name");

@@ -64,9 +64,9 @@ struct Attribute {
   AttributeKind kind = AttributeKind::kUv;
   std::string name;  ///< as in the source, "TEXCOORD_0"
   AttributeDomain domain = AttributeDomain::kVertex;
-  uint32_t components = 2;    ///< 2 for UV, 3 for normals, 4 for tangents, 3 or 4 for colours
-  uint32_t frames = 1;        ///< 1: static, or as in the first frame; else as many as the sequence
-  FrameArray values;  ///< frames x elements x components, row-major
+  uint32_t components = 2;  ///< 2 for UV, 3 for normals, 4 for tangents, 3 or 4 for colours
+  uint32_t frames = 1;      ///< 1: static, or as in the first frame; else as many as the sequence
+  FrameArray values;        ///< frames x elements x components, row-major
   std::optional<AttributeBound> bound = {};  ///< its own; nothing: that of all attributes
   std::string unit = {};                     ///< of the values, as "K"; empty: unknown
 
@@ -128,9 +128,9 @@ struct MeshSequence : MeshDetails {
   std::vector<double>
       times;  ///< frame_count seconds from start_time for uneven sampling, else empty
   UpAxis up = UpAxis::kUnknown;
-  double metres_per_unit = 0;  ///< 0: unknown
-  Point origin{};              ///< where positions count from, in the coordinates of the source
-  bool loop = false;           ///< meant to be repeated
+  double metres_per_unit = 0;     ///< 0: unknown
+  Point origin{};                 ///< where positions count from, in the coordinates of the source
+  bool loop = false;              ///< meant to be repeated
   std::vector<NamedTime> events;  ///< ascending by time
   /// Several clips, one after the other: all frames together; name, rate, start, times, loop and events of
   /// the sequence are then without meaning. Empty: it is one clip.

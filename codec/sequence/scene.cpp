@@ -247,8 +247,7 @@ MeshSequence merge_meshes(std::span<const MeshSequence> meshes) {
     }
     for (const Attribute& attribute : mesh.attributes) {
       auto found = std::find_if(out.attributes.begin(), out.attributes.end(), [&](const auto& a) {
-        return a.kind == attribute.kind && a.name == attribute.name &&
-               a.domain == attribute.domain;
+        return a.kind == attribute.kind && a.name == attribute.name && a.domain == attribute.domain;
       });
       if (found == out.attributes.end()) {
         found = out.attributes.insert(found, attribute);

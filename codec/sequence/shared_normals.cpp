@@ -69,7 +69,8 @@ std::vector<uint32_t> known_shared_normals(const MeshSequence& sequence,
   }
   uint32_t place_count = sequence.vertex_count;
   for (size_t p = 0; p < flat.size(); ++p) {
-    for (uint32_t c = sequence.polygons.offsets[p]; flat[p] && c < sequence.polygons.offsets[p + 1]; ++c)
+    for (uint32_t c = sequence.polygons.offsets[p]; flat[p] && c < sequence.polygons.offsets[p + 1];
+         ++c)
       places[c] = place_count++;
   }
   return share_normals(*normals, rows, places, place_count);

@@ -63,7 +63,7 @@ template <class Turned>
 std::vector<uint32_t> all_turned(const SurfaceTopology& topology, const Turned& is_turned) {
   std::vector<uint8_t> turned(topology.triangles.size(), 0);
   parallel_for(uint32_t{0}, static_cast<uint32_t>(turned.size()),
-                    [&](uint32_t t) { turned[t] = is_turned(t); });
+               [&](uint32_t t) { turned[t] = is_turned(t); });
   std::vector<uint32_t> list;
   for (uint32_t t = 0; t < turned.size(); ++t) {
     if (turned[t])

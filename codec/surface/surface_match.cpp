@@ -15,9 +15,9 @@
 namespace anicodec {
 namespace {
 
-constexpr double kFarthest = 0.25;  // of the diagonal of the component's box
+constexpr double kFarthest = 0.25;      // of the diagonal of the component's box
 constexpr double kSmallOpening = 0.05;  // of the diagonal: what looks like a flaw, not like a shape
-constexpr double kNear = 0.01;      // of the whole's: always good enough, for tiny components
+constexpr double kNear = 0.01;          // of the whole's: always good enough, for tiny components
 
 void check_components(const SurfaceTopology& topology, const Positions& positions,
                       const Surface& other, const char* name, const char* other_name) {

@@ -24,8 +24,9 @@ constexpr double kUnposedStiffness = 10, kPosedStiffness = 0.5;
 constexpr double kStiffFit = 0.1, kSoftFit = 0.003;
 constexpr int kFitRounds = 14;  // these halve the largest distance at best
 constexpr int kMostAttempts = 7;
-constexpr int kFewestRounds = 2, kKindsOfRounds = 3;  // of geodesic_landmarks(): attempts differ in them
-constexpr double kReversed = 50;  // per cent of the correspondences that disagree
+constexpr int kFewestRounds = 2,
+              kKindsOfRounds = 3;  // of geodesic_landmarks(): attempts differ in them
+constexpr double kReversed = 50;   // per cent of the correspondences that disagree
 // Limits for a vertex that counts as carried well.
 constexpr double kSlow = 1.5;        // of the median move
 constexpr double kNearEdges = 0.25;  // mean edges from the surface
@@ -290,7 +291,8 @@ TransferResult transfer_connectivity(const SurfaceSource& source, uint32_t frame
       attempt = carried->try_surface(frame, surface, options, {});
       report.attempts = 1;
       // From the attempt that has distorted least, so that one that went astray does not lead others there.
-      for (int k = 1, failed = 0; report.alarms && k < kMostAttempts && failed < kKindsOfRounds; ++k) {
+      for (int k = 1, failed = 0; report.alarms && k < kMostAttempts && failed < kKindsOfRounds;
+           ++k) {
         const int rounds = kFewestRounds + (k - 1) % kKindsOfRounds;
         const std::vector<Landmark> landmarks = carried->landmarks(surface, attempt.fitted, rounds);
         if (landmarks.empty())

@@ -76,8 +76,9 @@ class DistanceSolver {
       along_ = between(options.first_along, options.last_along, 2 * part - 1);
       if (4 * round > options.rounds) {
         const bool mean_lags = distance_.mean() / mean > distance_.max() / max;
-        last_stiffness = std::clamp(last_stiffness * (mean_lags ? kSofterNextRound : kStifferNextRound),
-                                    options.least_stiffness, options.last_stiffness);
+        last_stiffness =
+            std::clamp(last_stiffness * (mean_lags ? kSofterNextRound : kStifferNextRound),
+                       options.least_stiffness, options.last_stiffness);
       }
       const double step = move(between(options.first_stiffness, last_stiffness, 4 * part));
       result.step = edge > 0 ? step / edge : 0;

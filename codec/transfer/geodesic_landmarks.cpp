@@ -24,7 +24,7 @@ constexpr double kMostCost = 3;       // of one anchor
 constexpr double kOtherPlace = 0.08;  // of the diagonal from the best place
 // By `anicodec massage transfer` of three poses of a horse, decimated to 50, 35 and 25 % by three programs: below a
 // disagreement of 1, or where a place had to be clearer, whole legs were left without landmarks.
-constexpr double kClearer = 1.05;     // cost of the best other place in that of the best
+constexpr double kClearer = 1.05;          // cost of the best other place in that of the best
 constexpr double kMostDisagreement = 1.2;  // of a place with the others, on average
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -193,7 +193,8 @@ Places consistent(Places places, double edge) {
 }
 
 /// The vertex of the surface that is as far from all places as one of the mesh is; none if two are.
-uint32_t find_place(uint32_t vertex, const Places& places, const Positions& v, double edge, double apart) {
+uint32_t find_place(uint32_t vertex, const Places& places, const Positions& v, double edge,
+                    double apart) {
   std::vector<double> cost(static_cast<size_t>(v.rows()), 0);
   for (size_t a = 0; a < places.size(); ++a) {
     const double length = places.on_mesh[a][vertex];
@@ -214,8 +215,8 @@ uint32_t find_place(uint32_t vertex, const Places& places, const Positions& v, d
 
 std::vector<Landmark> geodesic_landmarks(const GeodesicGraph& mesh,
                                          const std::vector<Anchor>& anchors,
-                                         const GeodesicGraph& surface_graph,
-                                         const Surface& surface, int rounds) {
+                                         const GeodesicGraph& surface_graph, const Surface& surface,
+                                         int rounds) {
   if (anchors.size() < kFewestAnchors)
     return {};
   const Positions& v = surface.positions();
@@ -255,9 +256,8 @@ std::vector<Landmark> geodesic_landmarks(const GeodesicGraph& mesh,
   places = consistent(std::move(places), edge);
   for (int round = 0; round < rounds; ++round) {
     std::vector<uint32_t> found(vertices.size());
-    parallel_for(size_t{0}, vertices.size(), [&](size_t k) {
-      found[k] = find_place(vertices[k], places, v, edge, apart);
-    });
+    parallel_for(size_t{0}, vertices.size(),
+                 [&](size_t k) { found[k] = find_place(vertices[k], places, v, edge, apart); });
     places = {};
     for (size_t k = 0; k < vertices.size(); ++k) {
       if (found[k] != SurfaceTopology::kNone)

@@ -44,8 +44,8 @@ struct Anchor {
 /// GeodesicGraph::distances(), and a round 120 times that and 15 000 operations a vertex of the surface.
 std::vector<Landmark> geodesic_landmarks(const GeodesicGraph& mesh,
                                          const std::vector<Anchor>& anchors,
-                                         const GeodesicGraph& surface_graph,
-                                         const Surface& surface, int rounds);
+                                         const GeodesicGraph& surface_graph, const Surface& surface,
+                                         int rounds);
 
 }  // namespace anicodec
 

@@ -61,7 +61,8 @@ CoefficientModel::CoefficientModel(uint32_t channels, const int32_t* neighbours,
       past_rows_[past * kComponents * kStates + i].start(middle(past), 64);
 }
 
-void CoefficientModel::continue_with(const int32_t* neighbours, const Vector<uint32_t>& level_start) {
+void CoefficientModel::continue_with(const int32_t* neighbours,
+                                     const Vector<uint32_t>& level_start) {
   neighbours_ = neighbours;
   level_start_ = &level_start;
   component_ = recent_ = 0;

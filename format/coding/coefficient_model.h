@@ -22,7 +22,8 @@ constexpr int32_t kCoefficientLimit = 1 << 24;
 
 /// The bits that residuals about 0 would take.
 struct ResidualCosts {
-  float magnitude[kRowSymbols] = {};  ///< of |q| = 0 .. 6, the sign left out; of 7 and more, up to there
+  float magnitude[kRowSymbols] =
+      {};  ///< of |q| = 0 .. 6, the sign left out; of 7 and more, up to there
   float positive = 0, negative = 0;
 };
 
@@ -169,8 +170,7 @@ class CoefficientModel {
     const int16_t *history = &history_[first], *past = &past_[first];
     uint32_t total = 0;
     for (uint32_t i = 0; i < count; ++i)
-      total += ((near[i] * near_scale_) >> 16) +
-               (static_cast<uint32_t>(history[i] + past[i]) >> 3);
+      total += ((near[i] * near_scale_) >> 16) + (static_cast<uint32_t>(history[i] + past[i]) >> 3);
     return total;
   }
 
@@ -343,17 +343,18 @@ class CoefficientModel {
   Vector<uint8_t> dependent_weights_;
 
   // Per vertex; for each channel in sign_, element 0 stands for "no neighbour".
-  Vector<uint16_t> near_;              ///< weighted sum of the neighbours' magnitudes
-  Vector<int16_t> history_, past_;     ///< running means of magnitudes, decay 1/2 and 27/32
-  Vector<int16_t> around_;             ///< and of near_of()
-  Vector<uint8_t> magnitude_;          ///< sum of |q| of the channels, at most 255
-  Vector<int8_t> sign_;                ///< of the component's residuals
-  Vector<int16_t> agreement_;          ///< kNear per vertex: do the signs of both agree?
+  Vector<uint16_t> near_;           ///< weighted sum of the neighbours' magnitudes
+  Vector<int16_t> history_, past_;  ///< running means of magnitudes, decay 1/2 and 27/32
+  Vector<int16_t> around_;          ///< and of near_of()
+  Vector<uint8_t> magnitude_;       ///< sum of |q| of the channels, at most 255
+  Vector<int8_t> sign_;             ///< of the component's residuals
+  Vector<int16_t> agreement_;       ///< kNear per vertex: do the signs of both agree?
   static constexpr int kMostShare = 16383;
-  int16_t share_[kFeatures] = {1638, 2458, 2458, 819, 1638};  ///< of features in what is expected, 1/8192
-  int run_ = 0;                ///< running mean of the magnitudes of batches
-  uint32_t component_ = 0;     ///< components coded before
-  uint32_t recent_ = 0;  ///< whether the two batches before were zero
+  int16_t share_[kFeatures] = {1638, 2458, 2458, 819,
+                               1638};  ///< of features in what is expected, 1/8192
+  int run_ = 0;                        ///< running mean of the magnitudes of batches
+  uint32_t component_ = 0;             ///< components coded before
+  uint32_t recent_ = 0;                ///< whether the two batches before were zero
 };
 
 }  // namespace anicodec

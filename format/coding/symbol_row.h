@@ -115,7 +115,8 @@ struct VectorRows {
                                       _mm_madd_epi16(_mm_unpacklo_epi16(c, d), cd));
     const __m128i high = _mm_add_epi32(_mm_madd_epi16(_mm_unpackhi_epi16(a, b), ab),
                                        _mm_madd_epi16(_mm_unpackhi_epi16(c, d), cd));
-    starts_of(_mm_packs_epi32(_mm_srli_epi32(low, kSymbolBits), _mm_srli_epi32(high, kSymbolBits)), to);
+    starts_of(_mm_packs_epi32(_mm_srli_epi32(low, kSymbolBits), _mm_srli_epi32(high, kSymbolBits)),
+              to);
   }
 
   static void starts_of(__m128i mean, uint16_t* to) {
@@ -168,8 +169,9 @@ struct VectorRows {
       return wasm_i32x4_splat(static_cast<int32_t>(weights[k] | uint32_t{weights[k + 1]} << 16));
     };
     const auto sum = [](v128_t ab, v128_t by_ab, v128_t cd, v128_t by_cd) {
-      return wasm_u32x4_shr(wasm_i32x4_add(wasm_i32x4_dot_i16x8(ab, by_ab), wasm_i32x4_dot_i16x8(cd, by_cd)),
-                            kSymbolBits);
+      return wasm_u32x4_shr(
+          wasm_i32x4_add(wasm_i32x4_dot_i16x8(ab, by_ab), wasm_i32x4_dot_i16x8(cd, by_cd)),
+          kSymbolBits);
     };
     const v128_t a = row(0), b = row(1), c = row(2), d = row(3), by_ab = pair(0), by_cd = pair(2);
     const v128_t low = sum(wasm_i16x8_shuffle(a, b, 0, 8, 1, 9, 2, 10, 3, 11), by_ab,

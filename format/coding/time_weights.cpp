@@ -24,7 +24,7 @@ namespace {
 constexpr int32_t kStep = 1 << kWeightFractionBits;
 constexpr int32_t kValueLimit = kWeightLimit * kStep;
 constexpr uint32_t kMaxChannels = 3;
-constexpr double kBitWorth = 0.14;  ///< squared steps to a bit when predictors are compared
+constexpr double kBitWorth = 0.14;        ///< squared steps to a bit when predictors are compared
 constexpr int32_t kMostSpread = 1 << 28;  ///< of predictions, in 1/16 step
 
 int32_t sign(int32_t x) {
@@ -270,7 +270,7 @@ WeightSurroundings TimeWeightModel::State::surroundings(uint32_t channels, uint3
   s.slow = slow_[c];
   for (uint32_t e = 0; e < channels; ++e) {
     if (e != c)
-      s.beside += e < c ? trace_.magnitude[at(e, index)]
+      s.beside += e < c       ? trace_.magnitude[at(e, index)]
                   : index > 0 ? trace_.magnitude[at(e, index) - 1]
                               : first;
   }
@@ -338,10 +338,9 @@ void TimeWeightModel::State::code_forward(Coder& coder, uint32_t channels, const
       const uint32_t spread = static_cast<uint32_t>(std::min(std::abs(line - held), kMostSpread)) *
                               (kWeightUnit / kStep);
       const double x = source ? source->x[at(c, f)] - prediction * (1.0 / kStep) : 0;
-      const int32_t q =
-          code_value(coder, x, source ? source->lambda : 0, [&](auto& to, int32_t given) {
-            return model_.code_frame(to, s, spread, given);
-          });
+      const int32_t q = code_value(
+          coder, x, source ? source->lambda : 0,
+          [&](auto& to, int32_t given) { return model_.code_frame(to, s, spread, given); });
       *v = std::clamp(prediction + q * kStep, -kValueLimit, kValueLimit);
       if constexpr (std::is_same_v<Coder, TrialEncoder>) {
         const double miss = *v * (1.0 / kStep) - source->x[at(c, f)];

@@ -284,8 +284,8 @@ anic_status anic_get_root_step(const anic_asset* asset, uint32_t clip, double fr
     return ANIC_E_ARGUMENT;
   if (!asset->has_clip(clip))
     return ANIC_E_ABSENT;
-  const RootState step = root_step(file, clip, from, to, static_cast<Sampling>(sampling),
-                                   static_cast<Wrap>(wrap));
+  const RootState step =
+      root_step(file, clip, from, to, static_cast<Sampling>(sampling), static_cast<Wrap>(wrap));
   give_root(file, step, file.root().holds(clip), out);
   return ANIC_OK;
 }

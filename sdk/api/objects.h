@@ -175,8 +175,8 @@ anic_status find_attribute(const anic_context* context, uint32_t mesh, uint32_t 
 
 /// Opens an asset of a file whose header and table have been read, or of its first bytes. `size`: how many bytes are
 /// there; `kept` and `learning` as in OpenOptions. Throws std::bad_alloc.
-Failure open_asset(const ContainerReader& file, size_t size, const anic_options& options, KeptMeshes* kept,
-                   KeptLearning* learning, anic_asset** out);
+Failure open_asset(const ContainerReader& file, size_t size, const anic_options& options,
+                   KeptMeshes* kept, KeptLearning* learning, anic_asset** out);
 
 /// What anic_open_asset() does. Throws std::bad_alloc.
 Failure open_asset(ByteView bytes, const anic_options& options, anic_asset** out);

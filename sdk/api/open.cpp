@@ -85,8 +85,7 @@ Failure find_requirements(ByteView head, const anic_options& options, anic_requi
   const OpenOptions opening = open_options(options, file.file_size());
   if (Failure failure = read_limits(file, opening, &limits); !failure.ok())
     return failure;
-  const MemoryEstimate estimate =
-      estimate_memory(limits, opening.quality, opening.opens_exact());
+  const MemoryEstimate estimate = estimate_memory(limits, opening.quality, opening.opens_exact());
   const bool boxes = options.flags & ANIC_OPEN_BOUNDS;
   const ContextSize context = context_size(limits, opening.quality);
   const uint64_t more = object_bytes<anic_asset>() + object_bytes<OpenedFile>() +
@@ -118,7 +117,7 @@ bool take_options(const anic_options* host, anic_options* out) {
   }
   return true && out->quality >= 0 && out->quality <= 1 && (out->clips || out->clip_count == 0) &&
          (out->flags & ~static_cast<uint64_t>(ANIC_OPEN_BOUNDS | ANIC_OPEN_ANY_ORDER |
-                                                  ANIC_OPEN_IN_PLACE | ANIC_OPEN_INEXACT)) == 0 &&
+                                              ANIC_OPEN_IN_PLACE | ANIC_OPEN_INEXACT)) == 0 &&
          !out->allocator.allocate == !out->allocator.release;
 }
 
@@ -241,7 +240,8 @@ Failure open_asset(const ContainerReader& container, size_t size, const anic_opt
                    KeptMeshes* kept, KeptLearning* learning, anic_asset** out) {
   OpenedFile* file = create<OpenedFile>(memory_of(&options.allocator), 0);
   try {
-    if (Failure failure = open_file(container, size, options, kept, learning, file); !failure.ok()) {
+    if (Failure failure = open_file(container, size, options, kept, learning, file);
+        !failure.ok()) {
       destroy(file);
       return failure;
     }

@@ -18,12 +18,13 @@ struct anic_stream {
   anicodec::Bytes bytes;
   anicodec::ContainerReader meshes;  ///< of that file, which has `begin` bytes; 0: there is none
   size_t begin = 0;
-  uint64_t mesh_hash = 0;           ///< of that file
+  uint64_t mesh_hash = 0;          ///< of that file
   anicodec::ContainerReader file;  ///< the one at hand, with its meshes
   anicodec::KeptMeshes kept;       ///< of the assets that were opened
   anicodec::KeptLearning learning;
-  bool adds_to_meshes = false;     ///< the file at hand is a continuation with chunks of meshes of its own
-  bool has_table = false;          ///< header and table are there
+  bool adds_to_meshes =
+      false;               ///< the file at hand is a continuation with chunks of meshes of its own
+  bool has_table = false;  ///< header and table are there
   bool has_limits = false;
   size_t arrived = 0;  ///< chunks, from the front of the table
   /// Chunks that have not arrived: those that all segments need, those that a segment needs.
@@ -68,7 +69,8 @@ void each_needed(anic_stream* stream, size_t begin, size_t end, Visit visit) {
       if (chunk.required)
         visit(&stream->common_missing);
     } else if (chunk.segment < stream->missing.size() && chunk.type != chunk_type("BASI") &&
-               chunk.type != chunk_type("CORR") && chunk.type != chunk_type("DIFF") && chunk.required) {
+               chunk.type != chunk_type("CORR") && chunk.type != chunk_type("DIFF") &&
+               chunk.required) {
       visit(&stream->missing[chunk.segment]);
     }
   }
@@ -94,9 +96,9 @@ Failure read_head(anic_stream* stream) {
     info.file_bytes = file.file_size();
     if (file.is_continuation() && stream->begin == 0)
       return {Status::kFeature, 16, 0, "the file continues another one, which has its meshes"};
-    stream->adds_to_meshes = file.is_continuation() &&
-                             std::any_of(file.chunks().begin(), file.chunks().end(),
-                                         [](const Chunk& chunk) { return is_of_mesh(chunk); });
+    stream->adds_to_meshes =
+        file.is_continuation() && std::any_of(file.chunks().begin(), file.chunks().end(),
+                                              [](const Chunk& chunk) { return is_of_mesh(chunk); });
     if (file.is_continuation()) {
       file.add_meshes(stream->meshes, stream->bytes);
     } else {
@@ -114,7 +116,8 @@ Failure read_head(anic_stream* stream) {
   if (file.is_continuation() && limits.continued_meshes != stream->mesh_hash)
     return limits.continued_meshes
                ? failure_in(*chunk, Status::kMeshes, "the file continues a file with other meshes")
-               : failure_in(*chunk, Status::kRecord, "the file does not say which meshes it continues");
+               : failure_in(*chunk, Status::kRecord,
+                            "the file does not say which meshes it continues");
   stream->has_limits = true;
   const size_t segments = limits.segments.size(), chunks = file.chunks().size();
   stream->missing.assign(segments, 0);
@@ -156,7 +159,8 @@ Failure take_chunks(anic_stream* stream) {
 /// Looks at all bytes that are there of the file at hand.
 Failure read_bytes(anic_stream* stream) {
   anic_stream_info& info = stream->info;
-  const ByteView there = {stream->bytes.data() + stream->begin, stream->bytes.size() - stream->begin};
+  const ByteView there = {stream->bytes.data() + stream->begin,
+                          stream->bytes.size() - stream->begin};
   info.received_bytes = there.size;
   if (stream->has_table)
     stream->file.extend(bytes_at_hand(*stream));
@@ -338,8 +342,9 @@ anic_status anic_open_asset_from_stream(anic_stream* stream, anic_asset** out,
   if (!stream->info.playable)
     return report({Status::kState, stream->bytes.size(), 0, "nothing can be played yet"}, failure);
   const size_t size = bytes_at_hand(*stream).size - static_cast<size_t>(stream->info.waiting_bytes);
-  Failure what =
-      guarded([&] { return open_asset(stream->file, size, stream->options, kept_of(stream), &stream->learning, out); });
+  Failure what = guarded([&] {
+    return open_asset(stream->file, size, stream->options, kept_of(stream), &stream->learning, out);
+  });
   // A prefix may be too short for what the whole file is allowed.
   if (what.status == Status::kLimit && !stream->info.complete)
     what = {Status::kState, stream->bytes.size(), what.chunk, "too little has arrived"};

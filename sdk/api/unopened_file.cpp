@@ -23,7 +23,8 @@ Failure read_metadata(ByteView bytes, ByteView* out) {
   if (Failure failure = file.payload(*chunk, out); !failure.ok())
     return failure;
   return is_metadata(*out) ? Failure{}
-                           : failure_in(*chunk, Status::kRecord, "the metadata is too long, too deep, or no UTF-8");
+                           : failure_in(*chunk, Status::kRecord,
+                                        "the metadata is too long, too deep, or no UTF-8");
 }
 
 void include(const Box& box, anic_box* out) {
@@ -66,11 +67,13 @@ Failure read_bounds(ByteView bytes, uint32_t mesh, uint32_t first, uint32_t coun
     if (Status s = BoundsRecord::read(payload, segment.frames, &bounds); s != Status::kOk)
       return failure_in(*chunk, s, "the boxes are malformed");
     const uint32_t step = bounds.every == 0 ? segment.frames : bounds.every;
-    for (uint32_t f = from - segment.first_frame; f < to - segment.first_frame; f = (f / step + 1) * step)
+    for (uint32_t f = from - segment.first_frame; f < to - segment.first_frame;
+         f = (f / step + 1) * step)
       include(bounds.of_frame(f), out);
     is_there = true;
   }
-  return is_there ? Failure{} : Failure{Status::kAbsent, 0, 0, "the mesh is in none of these frames"};
+  return is_there ? Failure{}
+                  : Failure{Status::kAbsent, 0, 0, "the mesh is in none of these frames"};
 }
 
 }  // namespace
@@ -78,14 +81,16 @@ Failure read_bounds(ByteView bytes, uint32_t mesh, uint32_t first, uint32_t coun
 
 using namespace anicodec;
 
-anic_status anic_read_metadata(const void* file, size_t size, const char** text, size_t* text_bytes) {
+anic_status anic_read_metadata(const void* file, size_t size, const char** text,
+                               size_t* text_bytes) {
   if (!text || !text_bytes || (!file && size > 0))
     return ANIC_E_ARGUMENT;
   *text = nullptr;
   *text_bytes = 0;
   ByteView found;
-  const Failure failure =
-      guarded([&] { return read_metadata({static_cast<const uint8_t*>(file), size}, &found); });
+  const Failure failure = guarded([&] {
+    return read_metadata({static_cast<const uint8_t*>(file), size}, &found);
+  });
   if (failure.ok()) {
     *text = reinterpret_cast<const char*>(found.data);
     *text_bytes = found.size;
@@ -99,7 +104,8 @@ anic_status anic_read_bounds(const void* file, size_t size, uint32_t mesh, uint3
     return ANIC_E_ARGUMENT;
   anic_box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
   const Failure failure = guarded([&] {
-    return read_bounds({static_cast<const uint8_t*>(file), size}, mesh, first_frame, frame_count, &box);
+    return read_bounds({static_cast<const uint8_t*>(file), size}, mesh, first_frame, frame_count,
+                       &box);
   });
   if (failure.ok())
     *out = box;

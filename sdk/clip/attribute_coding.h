@@ -28,16 +28,15 @@ class CornerGraph {
 
   /// Keeps a reference to the topology. Cost: O(corners log corners).
   explicit CornerGraph(const Topology& topology)
-      : topology_(topology),
-        polygon_(topology.polygon_corners.size()) {
+      : topology_(topology), polygon_(topology.polygon_corners.size()) {
     for (uint32_t p = 0; p < polygon_count(); ++p) {
       for (uint32_t c = begin(p); c < end(p); ++c)
         polygon_[c] = p;
     }
     const auto coded_at = [this](uint32_t corner) { return coded(corner); };
-    across_ = HalfEdges(topology.coded_vertices, corner_count(), coded_at,
-                        [this](uint32_t corner) { return next(corner); })
-                  .opposites(coded_at);
+    across_ = HalfEdges(topology.coded_vertices, corner_count(), coded_at, [this](uint32_t corner) {
+                return next(corner);
+              }).opposites(coded_at);
     for (uint32_t c = 0; c < corner_count(); ++c) {
       if (across_[c] != kNone && polygon_[across_[c]] >= polygon_[c])
         across_[c] = kNone;

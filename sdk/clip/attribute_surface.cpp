@@ -14,7 +14,8 @@ int32_t floor_of(int64_t sum, int64_t count) {
 
 }  // namespace
 
-Topology attribute_surface(const CornerGraph& graph, AttributeDomain domain, AttributeEntries entries) {
+Topology attribute_surface(const CornerGraph& graph, AttributeDomain domain,
+                           AttributeEntries entries) {
   Topology surface;
   surface.coded_vertices = entries.count;
   surface.vertex_coded = std::move(entries.of_element);
@@ -49,7 +50,8 @@ PoseGrid surface_pose(const PoseGrid& pose, const Topology& mesh, AttributeDomai
   };
   for (uint32_t v = 0; domain == AttributeDomain::kVertex && v < mesh.vertex_coded.size(); ++v)
     add(v, v);
-  for (uint32_t p = 0; domain != AttributeDomain::kVertex && p + 1 < mesh.polygon_offsets.size(); ++p) {
+  for (uint32_t p = 0; domain != AttributeDomain::kVertex && p + 1 < mesh.polygon_offsets.size();
+       ++p) {
     for (uint32_t c = mesh.polygon_offsets[p]; c < mesh.polygon_offsets[p + 1]; ++c)
       add(domain == AttributeDomain::kCorner ? c : p, mesh.polygon_corners[c]);
   }

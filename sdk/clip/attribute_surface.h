@@ -12,7 +12,8 @@ namespace anicodec {
 /// The surface that the segments of an attribute are coded over in place of the mesh (spec/09a-segments.md, section 8): its
 /// entries are the coded vertices, its elements the vertices. Triangles a, b, b link entries that follow one another
 /// around a polygon, or of polygons those across an edge. Has no polygons. O(corners).
-Topology attribute_surface(const CornerGraph& graph, AttributeDomain domain, AttributeEntries entries);
+Topology attribute_surface(const CornerGraph& graph, AttributeDomain domain,
+                           AttributeEntries entries);
 
 /// The pose of the entries: the mean of the vertices, or of the corners of a polygon, that have each, rounded down.
 /// `mesh` and `surface` are in the same order. O(corners).

@@ -11,7 +11,8 @@
 namespace anicodec {
 namespace {
 
-Status decode_values(BinaryDecoder& decoder, const CornerGraph& graph, bool moves, MeshAttribute* out) {
+Status decode_values(BinaryDecoder& decoder, const CornerGraph& graph, bool moves,
+                     MeshAttribute* out) {
   const AttributeHeader& header = out->header;
   if (header.has_labels()) {
     out->labels.assign(graph.polygon_count(), 0);
@@ -81,10 +82,12 @@ Vector<uint32_t> inverse(const Vector<uint32_t>& permutation) {
 }  // namespace
 
 Status decode_attributes(const AttributeRecord& record, const Limits::Mesh& sizes,
-                         const Topology& topology, const Vector<uint8_t>& moving, Vector<MeshAttribute>* out) {
+                         const Topology& topology, const Vector<uint8_t>& moving,
+                         Vector<MeshAttribute>* out) {
   // Each attribute looks at all corners, also where few elements share them.
-  if (uint64_t{sizes.corners} * record.attributes.size() >
-      uint64_t{16} * sizes.corners + 256 * sizes.attribute_numbers + 4096 * record.attributes.size())
+  if (uint64_t{sizes.corners} * record.attributes.size() > uint64_t{16} * sizes.corners +
+                                                               256 * sizes.attribute_numbers +
+                                                               4096 * record.attributes.size())
     return Status::kLimit;
   const CornerGraph graph(topology);
   BinaryDecoder decoder(record.stream.data, record.stream.size);

@@ -18,14 +18,16 @@ struct MeshAttribute {
   Vector<float> values;     ///< elements x components
   Vector<uint32_t> labels;  ///< of polygons: 0 none, else one more than the number of a label.
                             ///< Without components: elements of one number share a value
-  Topology surface;         ///< of an attribute that moves: attribute_surface(); its triangles go once segments are open
+  Topology
+      surface;  ///< of an attribute that moves: attribute_surface(); its triangles go once segments are open
 };
 
 /// Decodes the attributes of a mesh in canonical order. `moving`: for each, one more than the domain over which
 /// segments move it, 0 where none do; those of that domain get their entries. Cost: O(corners log corners +
 /// numbers), memory 40 bytes for each corner and 8 for each vertex beside the result, for a moment.
 Status decode_attributes(const AttributeRecord& record, const Limits::Mesh& sizes,
-                         const Topology& topology, const Vector<uint8_t>& moving, Vector<MeshAttribute>* out);
+                         const Topology& topology, const Vector<uint8_t>& moving,
+                         Vector<MeshAttribute>* out);
 
 /// Reorders the values of vertices as apply_vertex_map() does the vertices.
 void apply_vertex_map(const Vector<uint32_t>& source, Vector<MeshAttribute>* attributes);

@@ -103,7 +103,8 @@ bool has_arrived(const ContainerReader& file, const Limits::Segment& sizes, uint
 
 Failure Clip::open(ByteView bytes, const OpenOptions& options) {
   ContainerReader file;
-  if (Failure failure = options.prefix ? file.open_prefix(bytes) : file.open(bytes); !failure.ok()) {
+  if (Failure failure = options.prefix ? file.open_prefix(bytes) : file.open(bytes);
+      !failure.ok()) {
     *this = Clip();
     return failure;
   }
@@ -267,7 +268,8 @@ uint32_t Clip::clip_at(uint32_t frame) const {
 Failure Clip::open_meshes(const ContainerReader& file, const OpenOptions& options) {
   const size_t count = limits_.meshes.size();
   const bool kept = options.kept &&
-                    options.kept->take(limits_.meshes, record_.order, &meshes_, &poses_) && has_surfaces();
+                    options.kept->take(limits_.meshes, record_.order, &meshes_, &poses_) &&
+                    has_surfaces();
   if (!kept) {
     meshes_ = Vector<Mesh>(count);
     poses_ = Vector<MeshPose>(count);
@@ -340,7 +342,8 @@ Failure Clip::open_attributes(const ContainerReader& file, uint16_t mesh,
   for (uint32_t a = 0; a < moving.size(); ++a) {
     const auto [first, last] = attribute_tracks(mesh, a);
     if (first != last)
-      moving[a] = 1 + static_cast<uint8_t>(limits_.segments[by_frame_[tracks_[first].begin]].domain);
+      moving[a] =
+          1 + static_cast<uint8_t>(limits_.segments[by_frame_[tracks_[first].begin]].domain);
   }
   if (s == Status::kOk)
     s = decode_attributes(record, limits_.meshes[mesh], meshes_[mesh].topology, moving,
@@ -362,7 +365,8 @@ bool Clip::has_surfaces() const {
   for (size_t t = meshes_.size(); t < tracks_.size(); ++t) {
     const Track& track = tracks_[t];
     const Vector<MeshAttribute>& attributes = meshes_[track.mesh].attributes;
-    if (track.attribute < attributes.size() && attributes[track.attribute].surface.coded_vertices == 0)
+    if (track.attribute < attributes.size() &&
+        attributes[track.attribute].surface.coded_vertices == 0)
       return false;
   }
   return true;
@@ -408,8 +412,9 @@ Failure Clip::open_segments(const ContainerReader& file, const OpenOptions& opti
     if (Failure f = read_pose(file, *chunk, meshes_[m].topology, work_[m], &pose); !f.ok())
       return f;
   }
-  Vector<LearntSegment> learnt = made_in(options.learning ? options.learning->memory() : MemoryScope::current(),
-                                         [&] { return Vector<LearntSegment>(meshes_.size()); });
+  Vector<LearntSegment> learnt =
+      made_in(options.learning ? options.learning->memory() : MemoryScope::current(),
+              [&] { return Vector<LearntSegment>(meshes_.size()); });
   const Vector<uint8_t> needed = needed_segments(file);
   for (uint32_t i = 0; i < segments_.size(); ++i) {
     if (!needed[i])
@@ -445,7 +450,8 @@ Vector<uint8_t> Clip::needed_segments(const ContainerReader& file) const {
       continue;
     const Chunk* chunk = file.find("SEGM", sizes.mesh, i);
     SegmentRecord record;
-    if (chunk && file.has(*chunk) && SegmentRecord::read(file.unchecked(*chunk), &record) == Status::kOk &&
+    if (chunk && file.has(*chunk) &&
+        SegmentRecord::read(file.unchecked(*chunk), &record) == Status::kOk &&
         record.continued != 0)
       needed[before[i]] = 1;
   }
@@ -476,7 +482,8 @@ Status Clip::attribute_work(const Limits::Segment& sizes, AttributeWork** out) {
     found->sizes = sizes.coded_over(limits_.meshes[sizes.mesh]);
     found->pose = surface_pose(pose, mesh.topology, domain, attribute.surface);
     const Vector<uint32_t>& links = attribute.surface.triangles;
-    if (Status s = found->graph.init(links.data(), links.size() / 3, sizes.entries); s != Status::kOk)
+    if (Status s = found->graph.init(links.data(), links.size() / 3, sizes.entries);
+        s != Status::kOk)
       return s;
   }
   *out = &*found;
@@ -500,14 +507,16 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
       made_in(learnt_of_meshes->get_allocator().memory(), [] { return LearntSegment(); });
   if (record.continued != 0) {
     if (!sizes.learns)
-      return failure_in(*chunk, Status::kRecord, "the limits announce no segment that continues another");
+      return failure_in(*chunk, Status::kRecord,
+                        "the limits announce no segment that continues another");
     LearntSegment& last = (*learnt_of_meshes)[sizes.mesh];
     if (last.identity == record.continued)
       context.continued = &last;
     else if (last.identity == 0 && options.learning)
       context.continued = options.learning->find(sizes.mesh, record.continued);
     if (!context.continued)
-      return failure_in(*chunk, Status::kSegmentMissing, "the segment continues one that is missing before it");
+      return failure_in(*chunk, Status::kSegmentMissing,
+                        "the segment continues one that is missing before it");
   }
   context.sizes = &sizes;
   context.mesh_sizes = &limits_.meshes[sizes.mesh];
@@ -531,8 +540,9 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
     AttributeWork* shared = nullptr;
     if (s = attribute_work(sizes, &shared); s != Status::kOk)
       return failure_in(*chunk, s,
-                        s == Status::kIndexRange ? "the segment is of no attribute of the mesh"
-                                                 : "the attribute has nothing to be predicted over");
+                        s == Status::kIndexRange
+                            ? "the segment is of no attribute of the mesh"
+                            : "the attribute has nothing to be predicted over");
     context.mesh_sizes = &shared->sizes;
     context.topology = &meshes_[sizes.mesh].attributes[sizes.attribute].surface;
     context.vertex_coded = &context.topology->vertex_coded;
@@ -628,9 +638,9 @@ const Segment* Clip::segment_at(uint32_t track, uint32_t frame) const {
   // The last segment of the track that begins at the frame or before.
   const Track& t = tracks_[track];
   const uint32_t* const begin = by_frame_.data() + t.begin;
-  const uint32_t* const after = std::partition_point(begin, by_frame_.data() + t.end, [&](uint32_t i) {
-    return segments_[i].first_frame <= frame;
-  });
+  const uint32_t* const after =
+      std::partition_point(begin, by_frame_.data() + t.end,
+                           [&](uint32_t i) { return segments_[i].first_frame <= frame; });
   if (after == begin)
     return nullptr;
   const Segment& s = segments_[*(after - 1)];

@@ -61,6 +61,7 @@ struct OpenOptions {
 
   /// Whether exact positions are opened, of segments that have them.
   bool opens_exact() const { return !inexact && quality >= 1; }
+
   /// Share the work that can be shared; nothing depends on them.
   HostThreads threads;
   /// Told after every mesh, level of the vertices and component; may end the opening with

@@ -22,15 +22,20 @@ struct KnownChunk {
   bool copied = false;   ///< must be marked so
 };
 
-constexpr KnownChunk kKnownChunks[] = {
-    {chunk_type("LIMI"), Owner::kClip},    {chunk_type("CLIP"), Owner::kClip},
-    {chunk_type("MESH"), Owner::kMesh},    {chunk_type("VMAP"), Owner::kMesh},
-    {chunk_type("FMAP"), Owner::kMesh},    {chunk_type("POSE"), Owner::kEither},
-    {chunk_type("SEGM"), Owner::kSegment}, {chunk_type("BASI"), Owner::kSegment},
-    {chunk_type("CORR"), Owner::kSegment}, {chunk_type("ATTR"), Owner::kMesh, false},
-    {chunk_type("ROOT"), Owner::kClip},    {chunk_type("DIFF"), Owner::kSegment},
-    {chunk_type("META"), Owner::kClip, false, true},
-    {chunk_type("BNDS"), Owner::kSegment, false, true}};
+constexpr KnownChunk kKnownChunks[] = {{chunk_type("LIMI"), Owner::kClip},
+                                       {chunk_type("CLIP"), Owner::kClip},
+                                       {chunk_type("MESH"), Owner::kMesh},
+                                       {chunk_type("VMAP"), Owner::kMesh},
+                                       {chunk_type("FMAP"), Owner::kMesh},
+                                       {chunk_type("POSE"), Owner::kEither},
+                                       {chunk_type("SEGM"), Owner::kSegment},
+                                       {chunk_type("BASI"), Owner::kSegment},
+                                       {chunk_type("CORR"), Owner::kSegment},
+                                       {chunk_type("ATTR"), Owner::kMesh, false},
+                                       {chunk_type("ROOT"), Owner::kClip},
+                                       {chunk_type("DIFF"), Owner::kSegment},
+                                       {chunk_type("META"), Owner::kClip, false, true},
+                                       {chunk_type("BNDS"), Owner::kSegment, false, true}};
 
 const KnownChunk* known(uint32_t type) {
   const KnownChunk* found = std::find_if(std::begin(kKnownChunks), std::end(kKnownChunks),
@@ -51,7 +56,8 @@ bool is_known_chunk(uint32_t type) {
 Failure check_chunks(const ContainerReader& file) {
   for (const Chunk& chunk : file.chunks()) {
     if (chunk.required && !known(chunk.type))
-      return failure_in(chunk, Status::kChunkUnknown, "the file needs a chunk this reader does not know");
+      return failure_in(chunk, Status::kChunkUnknown,
+                        "the file needs a chunk this reader does not know");
   }
   for (size_t i = 1; i < file.by_key().size(); ++i) {
     const Chunk &a = file.chunks()[file.by_key()[i - 1]], &b = file.chunks()[file.by_key()[i]];
@@ -115,7 +121,7 @@ Failure check_places(const ContainerReader& file, const Limits& limits, OrderMod
 }
 
 Failure required_payload(const ContainerReader& file, const char (&type)[5], uint16_t mesh,
-                 uint32_t segment, const Chunk** chunk, ByteView* out) {
+                         uint32_t segment, const Chunk** chunk, ByteView* out) {
   *chunk = file.find(type, mesh, segment);
   if (!*chunk)
     return {Status::kChunkMissing, 0, chunk_type(type), "a required chunk is missing"};
@@ -155,21 +161,22 @@ Failure read_limits(const ContainerReader& file, const OpenOptions& options, Lim
       return failure_in(*chunk, Status::kLimit, "more components than allowed");
     uint64_t channels = s.kind == BasisKind::kEigentrajectories ? 1 : 3;
     uint64_t coefficients = channels * s.components * mesh.coded_vertices;
-    uint64_t weights =
-        uint64_t{4} * s.regions * s.frames * s.components * (channels == 1 ? 3 : 1);
+    uint64_t weights = uint64_t{4} * s.regions * s.frames * s.components * (channels == 1 ? 3 : 1);
     if (coefficients > plausible * 64 || weights > plausible * 64)
       return failure_in(*chunk, Status::kLimit, "counts that no file of this size can hold");
     if (s.draco_bytes > file.file_size() || s.draco_points / 3 > mesh.triangles)
       return failure_in(*chunk, Status::kLimit, "more of Draco than the mesh or the file can hold");
     if (s.exact && uint64_t{s.frames} * mesh.coded_vertices > plausible)
-      return failure_in(*chunk, Status::kLimit, "more exact positions than a file of this size can hold");
-    decisions += uint64_t{std::min(s.frames, s.corrections)} *
-                 block_count(mesh.coded_vertices);
+      return failure_in(*chunk, Status::kLimit,
+                        "more exact positions than a file of this size can hold");
+    decisions += uint64_t{std::min(s.frames, s.corrections)} * block_count(mesh.coded_vertices);
     allowed += coefficients + weights / 4;
   }
   if (decisions / 16 > allowed + std::min(file.file_size(), UINT64_MAX >> 8) * 16)
-    return failure_in(*chunk, Status::kLimit, "more frames with corrections than so few numbers can need");
-  if (estimate_memory(*out, options.quality, options.opens_exact()).opening > options.limits.resident_bytes)
+    return failure_in(*chunk, Status::kLimit,
+                      "more frames with corrections than so few numbers can need");
+  if (estimate_memory(*out, options.quality, options.opens_exact()).opening >
+      options.limits.resident_bytes)
     return failure_in(*chunk, Status::kLimit, "more memory than allowed");
   return {};
 }

@@ -24,7 +24,8 @@ const LearntSegment* KeptLearning::latest(uint16_t mesh) const {
 
 void KeptLearning::keep(Vector<LearntSegment> learnt) {
   const MemoryScope scope(memory_);
-  if (std::none_of(learnt.begin(), learnt.end(), [](const LearntSegment& s) { return s.identity != 0; }))
+  if (std::none_of(learnt.begin(), learnt.end(),
+                   [](const LearntSegment& s) { return s.identity != 0; }))
     return;
   if (learnt.size() != now_.size()) {
     before_ = Vector<LearntSegment>(learnt.size());

@@ -21,8 +21,8 @@ constexpr uint64_t kFaceModels = uint64_t{3} << 18;   // of the coder of faces
 constexpr uint64_t kOrderModels = uint64_t{1} << 18;  // and of the order of the vertices
 constexpr uint64_t kNeighbours = 24;                  // at most, of a vertex
 constexpr uint64_t kClip = 256, kRootOfClip = 128, kRootOfFrame = 12;
-constexpr uint64_t kStructure = 512;           // of a mesh or segment
-constexpr uint64_t kMatrix = 48;               // bytes of a pose map or motion
+constexpr uint64_t kStructure = 512;  // of a mesh or segment
+constexpr uint64_t kMatrix = 48;      // bytes of a pose map or motion
 constexpr uint64_t kExactModels = uint64_t{1} << 18;
 constexpr uint64_t kSymbol = 12;               // bytes that Draco keeps of one that may occur
 constexpr uint64_t kZstd = uint64_t{1} << 17;  // what zstd decodes in
@@ -203,7 +203,8 @@ MemoryEstimate estimate_memory(const Limits& limits, double quality, bool exact)
   for (size_t i = 0; i < order_of_segments.size(); ++i) {  // each attribute that moves, once
     const Limits::Segment& s = limits.segments[order_of_segments[i]];
     const Limits::Segment* before = i > 0 ? &limits.segments[order_of_segments[i - 1]] : nullptr;
-    if (s.attribute == kPositions || (before && before->mesh == s.mesh && before->attribute == s.attribute))
+    if (s.attribute == kPositions ||
+        (before && before->mesh == s.mesh && before->attribute == s.attribute))
       continue;
     const Limits::Mesh surface = s.coded_over(limits.meshes[s.mesh]);
     open.add(uint64_t{4} * surface.source_vertices);

@@ -86,8 +86,8 @@ class ExactCoding {
   bool code_frame(Coder& coder, uint32_t f, uint32_t reference, float* positions) {
     const size_t frame = size_t{3} * vertices_;
     if (f > 0) {
-      const auto back = static_cast<uint32_t>(
-          distance_.code(coder, static_cast<int32_t>(f - 1 - reference)));
+      const auto back =
+          static_cast<uint32_t>(distance_.code(coder, static_cast<int32_t>(f - 1 - reference)));
       if (back >= f)
         return false;
       reference = f - 1 - back;
@@ -141,8 +141,7 @@ class ExactCoding {
     for (uint32_t i = 0; v > 0 && i < EarlierNeighbours::kCount; ++i)
       like += same_[neighbours_.of(v)[i]];
     const size_t i = size_t{3} * v;
-    const bool same =
-        !Coder::kDecodes && std::memcmp(at_ + i, from_ + i, 3 * sizeof(float)) == 0;
+    const bool same = !Coder::kDecodes && std::memcmp(at_ + i, from_ + i, 3 * sizeof(float)) == 0;
     return coder.bit(same_models_[same_before_[v]][like], same);
   }
 
@@ -223,17 +222,16 @@ class ExactCoding {
     const size_t i = size_t{3} * v + c;
     Prediction::Vector inputs{};
     InSpace::Vector in_space{};
-    const double predicted =
-        first_ ? predict_in_space(v, c, &in_space) : predict(v, c, &inputs);
+    const double predicted = first_ ? predict_in_space(v, c, &in_space) : predict(v, c, &inputs);
     const double quantum =
         axis.lattice.is_used() ? axis.lattice.step : spacing(static_cast<float>(predicted));
     SymbolModel<>& model = axis.residual[class_of(expected(v, c) / quantum)];
-    const bool good = axis.lattice.is_used() ? code_on_lattice(coder, model, predicted, axis, at_ + i)
-                                             : code_number(coder, model, predicted, at_ + i);
+    const bool good = axis.lattice.is_used()
+                          ? code_on_lattice(coder, model, predicted, axis, at_ + i)
+                          : code_number(coder, model, predicted, at_ + i);
     if (!good)
       return false;
-    const auto missed =
-        static_cast<float>(std::fabs(static_cast<double>(at_[i]) - predicted));
+    const auto missed = static_cast<float>(std::fabs(static_cast<double>(at_[i]) - predicted));
     size_[i] = first_ ? missed : 0.7F * missed + 0.3F * size_before_[i];
     if (first_ && v > 0)
       axis.in_space.learn(in_space, from_last_neighbour(v, c), noise_);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * SPDX-FileCopyrightText: The anicodec authors */
 #include <anicodec/anicodec.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -23,8 +23,8 @@ static void transform(const float* map, const float* in, float* out) {
 }
 
 /* The vertex shader. */
-static void shade(const anic_basis* basis, const anic_part* part, const float* pose_maps, uint32_t v,
-                  float* x) {
+static void shade(const anic_basis* basis, const anic_part* part, const float* pose_maps,
+                  uint32_t v, float* x) {
   const size_t b = v / ANIC_BLOCK_VERTICES, i = v % ANIC_BLOCK_VERTICES;
   const uint32_t wide = basis->wide_components, narrow = basis->components - wide;
   if (part->shape != NULL) { /* ANIC_RECONSTRUCTION_MSGI: a buffer that changes with the frame */

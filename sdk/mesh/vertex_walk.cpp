@@ -216,7 +216,7 @@ void VertexWalk::sort_from(uint32_t first) {
     return std::tuple(-c.parallel, c.distance, c.copy, -c.count, c.vertex);
   };
   sort_ascending(candidates_ + first, candidates_ + candidate_count_,
-            [&](const Candidate& a, const Candidate& b) { return key(a) < key(b); });
+                 [&](const Candidate& a, const Candidate& b) { return key(a) < key(b); });
 }
 
 void VertexWalk::append(uint32_t v) {

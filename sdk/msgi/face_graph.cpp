@@ -24,17 +24,17 @@ Pairs find_edges(FaceGraph& graph) {
   graph.face_edges.assign(graph.corners.size(), kNoIndex);
   Pairs hinges;
   const HalfEdges half_edges(graph.vertex_count, graph.corners);
-  half_edges.for_each_edge([&](uint32_t low, uint32_t high, const HalfEdges::Item* first,
-                               const HalfEdges::Item* last) {
-    if (low == high)
-      return;
-    for (const HalfEdges::Item* item = first; item != last; ++item) {
-      graph.face_edges[item->corner] = static_cast<uint32_t>(graph.edges.size());
-      if (item != first && item[0].corner / 3 != item[-1].corner / 3)
-        hinges.emplace_back(item[-1].corner / 3, item[0].corner / 3);
-    }
-    graph.edges.push_back({low, high});
-  });
+  half_edges.for_each_edge(
+      [&](uint32_t low, uint32_t high, const HalfEdges::Item* first, const HalfEdges::Item* last) {
+        if (low == high)
+          return;
+        for (const HalfEdges::Item* item = first; item != last; ++item) {
+          graph.face_edges[item->corner] = static_cast<uint32_t>(graph.edges.size());
+          if (item != first && item[0].corner / 3 != item[-1].corner / 3)
+            hinges.emplace_back(item[-1].corner / 3, item[0].corner / 3);
+        }
+        graph.edges.push_back({low, high});
+      });
   return hinges;
 }
 

@@ -54,8 +54,8 @@ void set_output(const VertexOutput& output, PlayJob::Frame* frame) {
   frame->scale = output_scale(output);
 }
 
-void set_frame(const FrameState& state, const VertexOutput& output, uint32_t first,
-               uint32_t region, PlayJob::Frame* frame) {
+void set_frame(const FrameState& state, const VertexOutput& output, uint32_t first, uint32_t region,
+               PlayJob::Frame* frame) {
   frame->weights = state.weights + region * region_weights(*state.segment);
   frame->pose_map = state.pose_maps ? state.pose_maps + size_t{12} * region : nullptr;
   frame->motion = state.moves ? state.motion.m : nullptr;

@@ -16,12 +16,13 @@ struct FrameState {
   const Segment* segment = nullptr;
   const float* weights = nullptr;    ///< regions x components of the segment x weight_channels
   const float* pose_maps = nullptr;  ///< A_f, regions x 12; null where the segment has no pose
-  Affine motion;                                     ///< M_f, where `moves`
-  bool moves = false;  ///< the segment has motions, or the whole has one
+  Affine motion;                     ///< M_f, where `moves`
+  bool moves = false;                ///< the segment has motions, or the whole has one
   const Segment::Correction* corrections = nullptr;  ///< ascending by vertex
   uint32_t correction_count = 0;
-  uint32_t components = 0;       ///< the first ones of the segment, which are played
-  const float* exact = nullptr;  ///< coded vertices x 3: the positions, whatever else the state says
+  uint32_t components = 0;  ///< the first ones of the segment, which are played
+  const float* exact =
+      nullptr;  ///< coded vertices x 3: the positions, whatever else the state says
   const float* shape = nullptr;  ///< segments of MSGI: coded vertices x 3, before the motion
 };
 

@@ -49,6 +49,7 @@ void CornerTable::pair_corners(uint32_t vertex_count) {
       facing[end[low]++] = {high, c};
     }
   }
+
   // By the higher end: the corner that waits for another one, at an edge from `low`.
   struct Waiting {
     uint32_t low, corner;

@@ -110,9 +110,8 @@ bool code_poses(Coder& coder, const CornerTable& table, PoseSteps steps,
 
 }  // namespace
 
-Bytes encode_poses(const CornerTable& table, PoseSteps steps,
-                   const Vector<Vector<int32_t>>& poses, const Vector<uint32_t>& parents,
-                   const PosePartners* partners) {
+Bytes encode_poses(const CornerTable& table, PoseSteps steps, const Vector<Vector<int32_t>>& poses,
+                   const Vector<uint32_t>& parents, const PosePartners* partners) {
   Vector<Vector<int32_t>> copy = poses;
   RansEncoder encoder;
   code_poses(encoder, table, steps, parents, partners, copy);

@@ -27,9 +27,8 @@ enum class PoseSteps : uint8_t { kAny, kDependent };
 /// predict. About 0.6 microseconds per vertex and pose.
 ///   parents   for each pose 0, or one more than the number of an earlier pose
 ///   partners  vertices that those without a parent can be told by; null: nobody
-Bytes encode_poses(const CornerTable& table, PoseSteps steps,
-                   const Vector<Vector<int32_t>>& poses, const Vector<uint32_t>& parents,
-                   const PosePartners* partners = nullptr);
+Bytes encode_poses(const CornerTable& table, PoseSteps steps, const Vector<Vector<int32_t>>& poses,
+                   const Vector<uint32_t>& parents, const PosePartners* partners = nullptr);
 
 /// Decodes them. kEntropy when the stream is not one of encode_poses() for this table and parents.
 Status decode_poses(ByteView stream, const CornerTable& table, PoseSteps steps,

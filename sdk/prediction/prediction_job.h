@@ -53,10 +53,10 @@ struct EncoderJob {
   const float* y = nullptr;  // channels x (vertices + 1), the last of each 0: the current component
   float omega = 0;
   bool refit = false;
-  bool renew = false;              // the prior, before that
-  float alike = 0;                 // as PredictionJob's
+  bool renew = false;                // the prior, before that
+  float alike = 0;                   // as PredictionJob's
   const float* continued = nullptr;  // as PredictionJob's
-  const float* earlier = nullptr;  // if renew: samples of the components before, as y
+  const float* earlier = nullptr;    // if renew: samples of the components before, as y
   size_t earlier_samples = 0;
 };
 

@@ -24,8 +24,8 @@ constexpr float kQuarterPowers[] = {1.0f, 0x1.306fep+0f, 0x1.6a09e6p+0f, 0x1.ae8
 
 const PredictionKernels& prediction_kernels() {
 #if defined(ANICODEC_PREDICTION_AVX2)
-  static const PredictionKernels& best = fastest_kernels(
-      kPredictionKernelsAvx512, kPredictionKernelsAvx2, kPredictionKernelsPortable);
+  static const PredictionKernels& best =
+      fastest_kernels(kPredictionKernelsAvx512, kPredictionKernelsAvx2, kPredictionKernelsPortable);
   return best;
 #else
   return kPredictionKernelsPortable;

@@ -80,7 +80,7 @@ struct PredictionResiduals {
 /// Statistics that vertices have learnt: learnt_floats() x ranks. It must outlive who uses it.
 struct PredictionLearning {
   const Vector<float>* continued = nullptr;  ///< of the segment that this one continues, or null
-  Vector<float>* learnt = nullptr;  ///< receives that of this one, if not null
+  Vector<float>* learnt = nullptr;           ///< receives that of this one, if not null
 };
 
 /// Reconstructs the coefficients of one segment from the decoded integers.

@@ -6,11 +6,11 @@
 #ifndef ANICODEC_SDK_PREDICTION_REFIT_SOLVER_H_
 #define ANICODEC_SDK_PREDICTION_REFIT_SOLVER_H_
 
-#include <cstddef>
-#include <cstdint>
-
 #include "sdk/base/lanes.h"
 #include "sdk/prediction/prediction_job.h"
+
+#include <cstddef>
+#include <cstdint>
 
 namespace anicodec {
 namespace {

@@ -64,7 +64,8 @@ struct Graph {
 
 class Contraction {
  public:
-  Contraction(MeshGraph mesh, int m, int colours, const uint8_t* regions, const HostThreads& threads)
+  Contraction(MeshGraph mesh, int m, int colours, const uint8_t* regions,
+              const HostThreads& threads)
       : m_(m), colours_(colours), is_dense_(mesh.is_dense()), regions_(regions), threads_(threads) {
     const size_t vertex_count = mesh.vertex_count();
     nodes_.resize(vertex_count);

@@ -116,9 +116,9 @@ class CorrectionCoding {
   }
 
   uint32_t vertices_;
-  Vector<uint8_t> before_;         ///< corrections of the previous frame, as signs() tells them
-  Vector<uint8_t> block_before_;   ///< has any in the previous frame
-  Vector<uint32_t> corrected_blocks_;      ///< of the previous frame
+  Vector<uint8_t> before_;             ///< corrections of the previous frame, as signs() tells them
+  Vector<uint8_t> block_before_;       ///< has any in the previous frame
+  Vector<uint32_t> corrected_blocks_;  ///< of the previous frame
   bool any_before_ = false;
   AdaptiveBit any_[2], block_[4], vertex_[8];
   SymbolModel<> delta_[3][3][3];  ///< coordinate, signs of the frame before and of the left

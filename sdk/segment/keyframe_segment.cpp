@@ -130,8 +130,8 @@ Status set_up_msgi(const KeyframeParameters& parameters, const Vector<Vector<int
     inputs.push_back(x.data());
   Msgi::Options options;
   options.leaf_faces = parameters.leaf_faces;
-  options.most_bytes =
-      static_cast<size_t>(std::min<uint64_t>(msgi_bytes(*context.sizes, *context.mesh_sizes), SIZE_MAX));
+  options.most_bytes = static_cast<size_t>(
+      std::min<uint64_t>(msgi_bytes(*context.sizes, *context.mesh_sizes), SIZE_MAX));
   const Vector<uint32_t>& triangles = context.topology->triangles;
   out->msgi.resize(1);
   Status s =

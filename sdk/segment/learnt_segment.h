@@ -20,9 +20,10 @@ inline constexpr uint8_t kMostLearningNeighbours = 16;
 struct LearntSegment {
   uint64_t identity = 0;  ///< segment_identity(); 0: nothing has been learnt
   BasisKind kind = BasisKind::kEigentrajectories;
-  uint64_t order = 0;                            ///< hash_of() the order of the vertices
-  Vector<float> prediction;                      ///< see PredictionLearning
-  Vector<CoefficientModel> coefficients;         ///< one, to be continued with the order of the next segment, or none
+  uint64_t order = 0;        ///< hash_of() the order of the vertices
+  Vector<float> prediction;  ///< see PredictionLearning
+  Vector<CoefficientModel>
+      coefficients;  ///< one, to be continued with the order of the next segment, or none
 
   /// Whether a segment of this kind and order can go on from here.
   bool suits(BasisKind wanted, const VertexOrder& wanted_order) const {

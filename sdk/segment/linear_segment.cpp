@@ -51,10 +51,7 @@ class WeightReader {
  public:
   WeightReader(const LinearParameters& parameters, const Vector<uint32_t>& runs,
                const Segment& segment)
-      : parameters_(parameters),
-        runs_(runs),
-        segment_(segment),
-        model_(runs) {}
+      : parameters_(parameters), runs_(runs), segment_(segment), model_(runs) {}
 
   /// Block `weights` of a segment: DecodedBasis::affine_weights.
   Status read_bases(ByteView bytes, Vector<int32_t>* values) {
@@ -138,8 +135,8 @@ Status keep_still(const PoseGrid& pose, Segment* out) {
 /// Hashes the weights of the bases, as they are read, and makes the maps of the pose in all frames and
 /// regions from them. `factors`: of the weight step, for each frame.
 Status set_maps(const LinearParameters& parameters, const Vector<int32_t>& weights,
-                const Vector<double>& factors, const PoseGrid& pose,
-                const Vector<uint8_t>& regions, DecodedIntegers& integers, Segment* out) {
+                const Vector<double>& factors, const PoseGrid& pose, const Vector<uint8_t>& regions,
+                DecodedIntegers& integers, Segment* out) {
   const size_t frames = out->frames;
   out->pose_maps.resize(frames * out->regions);
   if (!parameters.affine)
@@ -152,9 +149,8 @@ Status set_maps(const LinearParameters& parameters, const Vector<int32_t>& weigh
   const double unit = parameters.weight_step / (1 << kWeightFractionBits);
   for (uint32_t r = 0; r < out->regions; ++r) {
     const int32_t* values = weights.data() + size_t{r} * kAffineFunctions * 3 * frames;
-    const AffineFunctions functions =
-        AffineFunctions::of(pose.points.data(), pose.points.size() / 3,
-                            regions.empty() ? nullptr : regions.data(), r);
+    const AffineFunctions functions = AffineFunctions::of(
+        pose.points.data(), pose.points.size() / 3, regions.empty() ? nullptr : regions.data(), r);
     for (size_t f = 0; f < frames; ++f) {
       double w[3][kAffineFunctions], map[12];
       for (size_t axis = 0; axis < 3; ++axis) {
@@ -269,7 +265,8 @@ Status decode_coefficients(const SegmentContext& context, const LinearParameters
     context.learnt->coefficients.assign(1, *model);
   }
   CoefficientReconstruction reconstruction;
-  if (Status s = reconstruction.init(order, pose, prediction, input, decoded->coefficients.data(), learning);
+  if (Status s = reconstruction.init(order, pose, prediction, input, decoded->coefficients.data(),
+                                     learning);
       s != Status::kOk)
     return s;
   for (size_t l = 0; l < order.level_count(); ++l) {
@@ -318,7 +315,8 @@ bool set_weights(const Vector<int32_t>& weights, const LinearParameters& paramet
                       parameters.basis_step / (1 << bits);
   const int32_t* w = weights.data() + place * channels * out->frames;
   for (size_t f = 0; f < out->frames; ++f) {
-    float* to = &out->weights[((f * out->regions + region) * out->components + component) * channels];
+    float* to =
+        &out->weights[((f * out->regions + region) * out->components + component) * channels];
     for (size_t c = 0; c < channels; ++c) {
       if (!to_float(unit * factors[f] * w[c * out->frames + f], to + c))
         return false;
@@ -519,8 +517,7 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   }
 
   Vector<BasisLayer> layers;
-  if (Status s = read_layers(context.layers, components, wanted, &layers);
-      s != Status::kOk)
+  if (Status s = read_layers(context.layers, components, wanted, &layers); s != Status::kOk)
     return s;
   const Vector<double> factors = step_factors(parameters, runs);
   const auto use_bases = [&](const Vector<int32_t>& affine_weights) {

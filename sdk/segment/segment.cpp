@@ -125,9 +125,9 @@ Status open_segment(const SegmentRecord& record, const SegmentContext& context, 
 
 size_t Segment::resident_bytes() const {
   auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
-  return bytes(pose) + bytes(vertex_region) + bytes(wide) + bytes(narrow) + bytes(weights) + bytes(pose_maps) +
-         bytes(motions) + bytes(correction_begin) + bytes(corrections) + bytes(vertex_coded) + bytes(exact) +
-         (msgi.empty() ? 0 : msgi[0].resident_bytes());
+  return bytes(pose) + bytes(vertex_region) + bytes(wide) + bytes(narrow) + bytes(weights) +
+         bytes(pose_maps) + bytes(motions) + bytes(correction_begin) + bytes(corrections) +
+         bytes(vertex_coded) + bytes(exact) + (msgi.empty() ? 0 : msgi[0].resident_bytes());
 }
 
 }  // namespace anicodec

@@ -59,16 +59,16 @@ struct Segment {
 
   uint32_t weight_channels() const { return channels() == 1 ? 3 : 1; }
 
-  Vector<float> pose;        ///< blocks x 3 x 16, empty when there is none
-  Vector<int32_t> wide;      ///< blocks x wide_components x channels x 16
-  Vector<int16_t> narrow;    ///< blocks x the other components x channels x 16
+  Vector<float> pose;      ///< blocks x 3 x 16, empty when there is none
+  Vector<int32_t> wide;    ///< blocks x wide_components x channels x 16
+  Vector<int16_t> narrow;  ///< blocks x the other components x channels x 16
   /// frames x regions x components x weight_channels, coefficient scale included
   Vector<float> weights;
   Vector<Affine> pose_maps;  ///< A_f, frames x regions; empty when there is no pose
   /// Region of each vertex, blocks x 16, places past the last vertex repeat it; empty: all are of
   /// region 0.
   Vector<uint8_t> vertex_region;
-  Vector<Affine> motions;    ///< M_f; empty when there are none
+  Vector<Affine> motions;  ///< M_f; empty when there are none
 
   Vector<uint32_t> keyframe_frames;  ///< source frame of each key-frame
   double origin[3] = {0, 0, 0};      ///< key-frame kind: offset of every coefficient vector
@@ -104,10 +104,11 @@ struct Segment {
 
 /// What the streams of a linear segment decode to.
 struct DecodedBasis {
-  Vector<int32_t> affine_weights;  ///< regions x functions x 3 x frames; empty: the base keeps still
-  Vector<int32_t> weights;         ///< components x regions x weight channels x frames
-  Vector<uint32_t> order;          ///< coded vertex of each rank
-  Vector<float> coefficients;      ///< in steps, by rank: rows of coefficient_stride()
+  Vector<int32_t>
+      affine_weights;          ///< regions x functions x 3 x frames; empty: the base keeps still
+  Vector<int32_t> weights;     ///< components x regions x weight channels x frames
+  Vector<uint32_t> order;      ///< coded vertex of each rank
+  Vector<float> coefficients;  ///< in steps, by rank: rows of coefficient_stride()
 };
 
 /// The last order of vertices that a segment made by a pose, for others that are alike.
@@ -117,7 +118,8 @@ struct SharedOrder {
   Vector<uint8_t> regions;  ///< of the vertices; empty: one
 
   bool is_of(int neighbours, int wanted_colours, const Vector<uint8_t>& wanted_regions) const {
-    return order.neighbour_count == neighbours && colours == wanted_colours && regions == wanted_regions;
+    return order.neighbour_count == neighbours && colours == wanted_colours &&
+           regions == wanted_regions;
   }
 };
 
@@ -136,12 +138,14 @@ struct SegmentContext {
   SharedOrder* order = nullptr;  ///< of the segments with this pose; null: the segment has its own
   /// What an encoder knows that weights and layers decode to; null: they are decoded.
   const DecodedBasis* decoded = nullptr;
-  Vector<ByteView> layers;               ///< chunks BASI in file order
-  ByteView corrections;                  ///< chunk CORR, empty when there is none
+  Vector<ByteView> layers;  ///< chunks BASI in file order
+  ByteView corrections;     ///< chunk CORR, empty when there is none
   /// The segment's frames cut where a clip ends (Limits::runs()); empty: they are one run.
   Vector<uint32_t> runs;
-  const LearntSegment* continued = nullptr;  ///< what the segment that this one continues has learnt; null: it begins anew
-  LearntSegment* learnt = nullptr;  ///< receives what this one learns, in the memory that it was made in; may be null
+  const LearntSegment* continued =
+      nullptr;  ///< what the segment that this one continues has learnt; null: it begins anew
+  LearntSegment* learnt =
+      nullptr;  ///< receives what this one learns, in the memory that it was made in; may be null
   double quality = 1;  ///< share of the components wanted
   /// Layers or corrections are still to come: as many components as are there are opened.
   bool partial = false;

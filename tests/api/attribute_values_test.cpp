@@ -51,13 +51,14 @@ TEST(AnicAttributeValues, AreThoseOfTheFrameChosen) {
   for (uint32_t frame : {0U, 23U, 7U, 20U, 7U}) {
     ASSERT_EQ(anic_seek_frame(context.get(), frame), ANIC_OK);
     for (uint32_t a : {kUv, kColour, kHeat})
-      EXPECT_LE(error_at(values(asset, context, a), attributed_source().attributes[a], frame), bounds[a])
+      EXPECT_LE(error_at(values(asset, context, a), attributed_source().attributes[a], frame),
+                bounds[a])
           << "attribute " << a << ", frame " << frame;
   }
   // What was shown before.
-  EXPECT_LE(
-      error_at(values(asset, context, kHeat, ANIC_WHEN_PREVIOUS), attributed_source().attributes[kHeat], 20),
-      bounds[kHeat]);
+  EXPECT_LE(error_at(values(asset, context, kHeat, ANIC_WHEN_PREVIOUS),
+                     attributed_source().attributes[kHeat], 20),
+            bounds[kHeat]);
   ASSERT_EQ(anic_forget_previous(context.get()), ANIC_OK);
   EXPECT_EQ(values(asset, context, kHeat, ANIC_WHEN_PREVIOUS), values(asset, context, kHeat));
 }
@@ -246,7 +247,8 @@ TEST(AnicAttributeValues, AreCoarserAtLowerQualityAndOfTheFirstFrameUntilTheyArr
   const Asset coarse = open(heated(), &options);
   const Context context = context_of(coarse);
   ASSERT_EQ(anic_seek_frame(context.get(), 20), ANIC_OK);
-  const double error = error_at(values(coarse, context, kHeat), attributed_source().attributes[kHeat], 20);
+  const double error =
+      error_at(values(coarse, context, kHeat), attributed_source().attributes[kHeat], 20);
   EXPECT_GT(error, 0.46);
   EXPECT_LT(error, 200);
 

@@ -79,7 +79,8 @@ TEST(AnicClips, EachHasItsNameClockAndPromise) {
       EXPECT_TRUE(clip.open);
       EXPECT_LE(clip.kg, kKg);
       EXPECT_GT(clip.kg, 0);
-      EXPECT_NEAR(clip.duration, c == 2 ? 0.64 : (kFrameCounts[c] - 1) / (c == 1 ? 60.0 : 30.0), 1e-12);
+      EXPECT_NEAR(clip.duration, c == 2 ? 0.64 : (kFrameCounts[c] - 1) / (c == 1 ? 60.0 : 30.0),
+                  1e-12);
       uint32_t found = 9;
       EXPECT_EQ(anic_find_clip(asset.get(), kNames[c], &found), ANIC_OK);
       EXPECT_EQ(found, c);

@@ -68,8 +68,10 @@ TEST(EncoderMemory, OfLongClips) {
 }
 
 TEST(EncoderMemory, OfLongClipsGrowsWithTheirFrames) {
-  const double few = held(corpus::make_wave_grid(600, 800, 5), options_of(Effort::kFast), 0).value();
-  const double many = held(corpus::make_wave_grid(600, 1600, 5), options_of(Effort::kFast), 0).value();
+  const double few =
+      held(corpus::make_wave_grid(600, 800, 5), options_of(Effort::kFast), 0).value();
+  const double many =
+      held(corpus::make_wave_grid(600, 1600, 5), options_of(Effort::kFast), 0).value();
   EXPECT_LT(many, 2.2 * few);
 }
 

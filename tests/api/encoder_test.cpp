@@ -376,7 +376,8 @@ TEST_F(AnicEncoder, TellsWhatIsWrong) {
 
   for (auto spoil : std::initializer_list<void (*)(anic_encode_options&)>{
            [](auto& o) { o.goal_value = -1; }, [](auto& o) { o.goal = static_cast<anic_goal>(8); },
-           [](auto& o) { o.effort = static_cast<anic_effort>(3); }, [](auto& o) { o.flags = uint64_t{1} << 40; },
+           [](auto& o) { o.effort = static_cast<anic_effort>(3); },
+           [](auto& o) { o.flags = uint64_t{1} << 40; },
            [](auto& o) { o.max_error = std::numeric_limits<double>::infinity(); },
            [](auto& o) { o.keyframes = 13; }, [](auto& o) { o.threads = 5000; },
            [](auto& o) { o.interpolation = ANIC_INTERPOLATE_MSGI; }}) {

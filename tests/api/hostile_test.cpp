@@ -101,7 +101,8 @@ TEST(Hostile, ConformanceFilesHaveTheirStatus) {
   for (int status = ANIC_E_MAGIC; status < ANIC_E_LIMIT; ++status) {
     const bool exists =
         std::string(anic_get_status_text(static_cast<anic_status>(status))) != "unknown status";
-    EXPECT_EQ(std::count(seen.begin(), seen.end(), status) > 0, exists && status != ANIC_E_MESHES) << status;
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), status) > 0, exists && status != ANIC_E_MESHES)
+        << status;
   }
 }
 

@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Meshes that a stream keeps from one asset to the next.
-#include "format/container.h"
 #include "sdk/clip/kept_meshes.h"
-#include "tests/api/opened.h"
 
 #include "format/checksum.h"
+#include "format/container.h"
 #include "format/continuation.h"
+#include "tests/api/opened.h"
 
 #include <algorithm>
 #include <set>
@@ -161,7 +161,8 @@ TEST(KeptMeshes, TakeNoMoreThanTheHostAllows) {
     } else {
       const size_t triangles = mesh.triangle_count, vertices = mesh.vertex_count;
       EXPECT_GT(kept, 12 * triangles + 12 * vertices);
-      EXPECT_LT(kept, 512 + 4 * (vertices + mesh.polygon_count + 1 + mesh.corner_count) + 12 * triangles + 113 * vertices);
+      EXPECT_LT(kept, 512 + 4 * (vertices + mesh.polygon_count + 1 + mesh.corner_count) +
+                          12 * triangles + 113 * vertices);
     }
   }
 }

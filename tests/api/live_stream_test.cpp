@@ -2,8 +2,9 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Files of a live stream, one after the other.
-#include "codec/encode_live.h"
 #include "codec/file/live_stream.h"
+
+#include "codec/encode_live.h"
 #include "corpus/clips.h"
 #include "tests/api/opened.h"
 
@@ -192,9 +193,11 @@ TEST(LiveStream, ReadsDamagedFilesThatLearnWithoutHarm) {
 
 TEST(LiveStream, RefusesWhatIsNone) {
   anic_asset* asset = nullptr;
-  EXPECT_EQ(anic_open_asset(files()[1].data(), files()[1].size(), nullptr, &asset, nullptr), ANIC_E_FEATURE);
+  EXPECT_EQ(anic_open_asset(files()[1].data(), files()[1].size(), nullptr, &asset, nullptr),
+            ANIC_E_FEATURE);
   const Bytes all = stream_bytes();
-  EXPECT_EQ(anic_open_asset(all.data(), all.size(), nullptr, &asset, nullptr), ANIC_E_TRAILING_BYTES);
+  EXPECT_EQ(anic_open_asset(all.data(), all.size(), nullptr, &asset, nullptr),
+            ANIC_E_TRAILING_BYTES);
 
   const Stream second = new_stream();
   EXPECT_EQ(anic_push_bytes(second.get(), files()[1].data(), files()[1].size()), ANIC_E_FEATURE);

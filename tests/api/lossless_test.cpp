@@ -92,7 +92,8 @@ TEST(AnicLossless, RangesOfAnyFrameHaveTheBitsOfTheSource) {
   }
   EXPECT_TRUE(has_source(context, clip, 11, 0, clip.vertex_count, ANIC_WHEN_PREVIOUS));
   for (uint32_t f = 0; f < kExactFrames; ++f)
-    EXPECT_EQ(std::memcmp(frame(asset, f).data(), clip.frame(f).data(), clip.frame(f).size_bytes()), 0);
+    EXPECT_EQ(std::memcmp(frame(asset, f).data(), clip.frame(f).data(), clip.frame(f).size_bytes()),
+              0);
 }
 
 TEST(AnicLossless, PlaysTheBasisBetweenFramesAndWhereLeftClosed) {
@@ -105,13 +106,16 @@ TEST(AnicLossless, PlaysTheBasisBetweenFramesAndWhereLeftClosed) {
   for (double seconds : {0.02, 0.1, 0.3}) {
     std::vector<float> shown[2];
     for (const Context* context : {&a, &b}) {
-      ASSERT_EQ(anic_seek_time(context->get(), seconds, ANIC_SAMPLE_CUBIC, ANIC_WRAP_CLAMP), ANIC_OK);
+      ASSERT_EQ(anic_seek_time(context->get(), seconds, ANIC_SAMPLE_CUBIC, ANIC_WRAP_CLAMP),
+                ANIC_OK);
       std::vector<float>& to = shown[context == &b];
       to.resize(size_t{3} * clip.vertex_count);
       anic_output out = ANIC_INIT(anic_output);
       out.data = to.data();
       out.size = 4 * to.size();
-      ASSERT_EQ(anic_write_positions(context->get(), 0, ANIC_WHEN_CURRENT, 0, clip.vertex_count, &out), ANIC_OK);
+      ASSERT_EQ(
+          anic_write_positions(context->get(), 0, ANIC_WHEN_CURRENT, 0, clip.vertex_count, &out),
+          ANIC_OK);
     }
     EXPECT_EQ(shown[0], shown[1]) << seconds;
   }
@@ -136,7 +140,8 @@ TEST(AnicLossless, MemoryIsAnnounced) {
     const Asset asset = open(file, &options);
     EXPECT_LE(memory.peak, needs.opening_bytes);
     EXPECT_LE(memory.held, needs.resident_bytes);
-    EXPECT_GE(1.05 * static_cast<double>(memory.held) + 4096, static_cast<double>(needs.resident_bytes));
+    EXPECT_GE(1.05 * static_cast<double>(memory.held) + 4096,
+              static_cast<double>(needs.resident_bytes));
     options.max_bytes = needs.opening_bytes / 2;
     anic_asset* refused = nullptr;
     EXPECT_EQ(anic_open_asset(file.data(), file.size(), &options, &refused, nullptr), ANIC_E_LIMIT);

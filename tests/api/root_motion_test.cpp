@@ -205,9 +205,9 @@ Matrix step(const Asset& asset, double from, double to, anic_wrap wrap = ANIC_WR
 
 Matrix motion_at(const Asset& asset, double seconds) {
   anic_root_motion motion = ANIC_INIT(anic_root_motion);
-  EXPECT_EQ(anic_get_root_motion(asset.get(), 0, seconds, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP,
-                                 &motion),
-            ANIC_OK);
+  EXPECT_EQ(
+      anic_get_root_motion(asset.get(), 0, seconds, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, &motion),
+      ANIC_OK);
   return {std::begin(motion.matrix), std::end(motion.matrix)};
 }
 
@@ -231,9 +231,9 @@ TEST(AnicRootStep, GoesFromOneTimeToAnotherAndOnThroughLoops) {
     // Its pace goes on where the last frame leads to the first.
     EXPECT_LT(distance(step(asset, duration, loop), step(asset, duration - 0.1, duration)), 1e-5);
     anic_root_motion motion = ANIC_INIT(anic_root_motion);
-    EXPECT_EQ(anic_get_root_step(asset.get(), 0, 0, 1e200, ANIC_SAMPLE_LINEAR, ANIC_WRAP_LOOP,
-                                 &motion),
-              ANIC_E_ARGUMENT);
+    EXPECT_EQ(
+        anic_get_root_step(asset.get(), 0, 0, 1e200, ANIC_SAMPLE_LINEAR, ANIC_WRAP_LOOP, &motion),
+        ANIC_E_ARGUMENT);
     EXPECT_EQ(anic_get_root_step(asset.get(), 9, 0, 1, ANIC_SAMPLE_LINEAR, ANIC_WRAP_LOOP, &motion),
               ANIC_E_ARGUMENT);
   }

@@ -155,8 +155,9 @@ void expect_shaded(const Asset& asset, const Context& context, uint32_t max_size
 }
 
 TEST(AnicTextures, HoldWhatAShaderNeeds) {
-  for (const char* name : {"limb_effort9", "heated", "other_parents", "quad_box_corrected",
-                           "regions", "saturated", "schedules", "vertex_order", "weights_in_time"}) {
+  for (const char* name :
+       {"limb_effort9", "heated", "other_parents", "quad_box_corrected", "regions", "saturated",
+        "schedules", "vertex_order", "weights_in_time"}) {
     SCOPED_TRACE(name);
     const Asset asset = open(conformance_file(name));
     const Context context = context_of(asset);

@@ -66,7 +66,8 @@ TEST(UnopenedFile, HasBoxesThatHoldItsFrames) {
   anic_box early = {{0}, {0}}, late = {{0}, {0}};
   ASSERT_EQ(anic_read_bounds(file.data(), file.size(), 0, 0, 64, &early), ANIC_OK);
   ASSERT_EQ(anic_read_bounds(file.data(), file.size(), 0, 64, 0, &late), ANIC_OK);
-  EXPECT_FALSE(std::equal(early.min, early.min + 3, late.min) && std::equal(early.max, early.max + 3, late.max));
+  EXPECT_FALSE(std::equal(early.min, early.min + 3, late.min) &&
+               std::equal(early.max, early.max + 3, late.max));
 }
 
 TEST(UnopenedFile, SaysWhereThereAreNoBoxes) {

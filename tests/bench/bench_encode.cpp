@@ -71,8 +71,8 @@ ByteView up_to_the_first(const char (&type)[5], ByteView file) {
   return file;
 }
 
-TimedEncode encode_timed(MeshSequence sequence, const Target& target, BasisChoice basis, Effort effort,
-                         bool verbose, OrderMode order, bool smallest) {
+TimedEncode encode_timed(MeshSequence sequence, const Target& target, BasisChoice basis,
+                         Effort effort, bool verbose, OrderMode order, bool smallest) {
   EncodeOptions options;
   options.target = target;
   options.basis = basis;

@@ -57,8 +57,8 @@ struct TimedEncode {
 
 /// Encodes with the program's defaults but for these; with `verbose` the trials and stages go to
 /// stderr.
-TimedEncode encode_timed(MeshSequence sequence, const Target& target, BasisChoice basis, Effort effort,
-                         bool verbose, OrderMode order = OrderMode::kFree,
+TimedEncode encode_timed(MeshSequence sequence, const Target& target, BasisChoice basis,
+                         Effort effort, bool verbose, OrderMode order = OrderMode::kFree,
                          bool smallest = false);
 
 /// Bits per frame and vertex.

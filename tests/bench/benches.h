@@ -58,7 +58,8 @@ Table run_open(const BenchOptions& options, double kg, int runs);
 
 /// Clips as live streams of so many frames a file: time to encode a file, and to open one as a stream does, which keeps the
 /// meshes, or with its meshes.
-Table run_live(const BenchOptions& options, const Target& target, uint32_t frames, double key_every, int runs);
+Table run_live(const BenchOptions& options, const Target& target, uint32_t frames, double key_every,
+               int runs);
 
 /// Bytes and opening time per vertex of frame 0 as a reference pose, against
 /// Draco on the same grid.

@@ -61,7 +61,9 @@ Table run_decode(const BenchOptions& options, double kg, int runs) {
       std::vector<float> positions;
       Clip opened;
       open_encoded(timed.result.file, opened);
+
       enum : size_t { kWhole, kDraco, kOpening, kPlaying };
+
       const Turns turns(
           runs,
           [&] {
@@ -120,7 +122,9 @@ Table run_large(const BenchOptions& options, uint32_t vertices, uint32_t frames,
   uint64_t peak = peak_memory();
   const Bytes& file = timed.result.file;
   const ByteView base = up_to_the_first("SEGM", file), layer = up_to_the_first("BASI", file);
+
   enum : size_t { kOpening, kBase, kLayer, kDraco };
+
   const Turns turns(runs, opening_of(file), opening_of_prefix(base), opening_of_prefix(layer),
                     [&] { decode_draco(draco); });
   Clip clip;

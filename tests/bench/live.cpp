@@ -17,7 +17,8 @@ namespace anicodec::bench {
 namespace {
 
 /// The files of a live stream, each of so many frames.
-std::vector<Bytes> live_files(MeshSequence sequence, size_t frames, double key_every, const EncodeOptions& options) {
+std::vector<Bytes> live_files(MeshSequence sequence, size_t frames, double key_every,
+                              const EncodeOptions& options) {
   const FrameArray positions = std::move(sequence.positions);
   sequence.positions = {};
   const size_t frame = size_t{3} * sequence.vertex_count;
@@ -40,7 +41,8 @@ Bytes whole_clip(MeshSequence sequence, EncodeOptions options) {
 
 }  // namespace
 
-Table run_live(const BenchOptions& options, const Target& target, uint32_t frames, double key_every, int runs) {
+Table run_live(const BenchOptions& options, const Target& target, uint32_t frames, double key_every,
+               int runs) {
   Table table({{"clip", "clip", ""},
                {"vertices", "vertices", ""},
                {"frames", "frames a file", ""},
@@ -62,7 +64,8 @@ Table run_live(const BenchOptions& options, const Target& target, uint32_t frame
     encoding.target = in_scene_units(target, diagonal(sequence));
     const uint32_t vertices = sequence.vertex_count;
     constexpr double kUsual = 30;  // frames a second, where nobody knows
-    const double seconds = sequence.frame_count / (sequence.rate.assumed ? kUsual : sequence.rate.value());
+    const double seconds =
+        sequence.frame_count / (sequence.rate.assumed ? kUsual : sequence.rate.value());
     const size_t whole_bytes = whole_clip(sequence, encoding).size();
     const Stopwatch watch(CLOCK_MONOTONIC);
     const std::vector<Bytes> files = live_files(std::move(sequence), frames, key_every, encoding);
@@ -71,7 +74,9 @@ Table run_live(const BenchOptions& options, const Target& target, uint32_t frame
     for (const Bytes& file : files)
       stream.insert(stream.end(), file.begin(), file.end());
     const std::vector<Bytes> whole = read_live_stream({name, stream}).files;
+
     enum : size_t { kFirst, kNext, kWhole };
+
     const auto rest = static_cast<double>(std::max<size_t>(files.size(), 2) - 1);
     KeptMeshes kept;
     KeptLearning learning, of_whole, after_first;

@@ -40,8 +40,9 @@ Table run_lossless(const BenchOptions& options) {
   for (const std::string& name : options.clips) {
     const MeshSequence sequence = load_clip(name);
     const RawCacheSize cache = raw_cache_size(sequence);
-    const TimedEncode timed = encode_timed(sequence, {ErrorMetric::kMaxError, 0, false}, options.basis,
-                                           options.effort, options.verbose, OrderMode::kVertices);
+    const TimedEncode timed =
+        encode_timed(sequence, {ErrorMetric::kMaxError, 0, false}, options.basis, options.effort,
+                     options.verbose, OrderMode::kVertices);
     const Bytes& file = timed.result.file;
     const double seconds = median_thread_seconds(1, opening_of(file));
     table.add({{"clip", name},

@@ -84,7 +84,8 @@ tools::Options& add(Bench& bench, const char* name, const char* description, con
                          });
   options.arguments("INPUT", a.inputs, "Names of clips, or the files of one clip");
   options.repeated("--clip", a.clips, "CLIP", "A clip; may be repeated");
-  options.choice("--effort", a.bench.effort, {tools::kEfforts}, "As for anicodec encode (default normal)");
+  options.choice("--effort", a.bench.effort, {tools::kEfforts},
+                 "As for anicodec encode (default normal)");
   options.flag("--json", a.json, "Print one JSON object");
   options.flag("--csv", a.csv, "Print comma-separated values");
   options.exclude({"--json", "--csv"});
@@ -212,11 +213,12 @@ void add_decode(Bench& bench) {
 
 void add_open(Bench& bench) {
   Arguments& a = bench.arguments;
-  tools::Options& options = add(
-      bench, "open", "Bytes and time to open, step by step, smallest and balanced", [](Arguments& args) {
-        args.bench.clips = clip_words(args.inputs, args.clips);
-        return std::vector{run_open(args.bench, args.one_kg, args.runs)};
-      });
+  tools::Options& options =
+      add(bench, "open", "Bytes and time to open, step by step, smallest and balanced",
+          [](Arguments& args) {
+            args.bench.clips = clip_words(args.inputs, args.clips);
+            return std::vector{run_open(args.bench, args.one_kg, args.runs)};
+          });
   options.number("--kg", a.one_kg, "PCT", kPositive, "KG error in per cent (default 0.1)");
   options.number("--runs", a.runs, "N", {1, 1000}, "Runs to take the median of (default 5)");
   add_basis(options, a);
@@ -225,19 +227,21 @@ void add_open(Bench& bench) {
 void add_live(Bench& bench) {
   Arguments& a = bench.arguments;
   tools::Options& options =
-      add(bench, "live", "Bytes of live streams and whole clips, time to encode and open files", [](Arguments& args) {
-        args.bench.clips = clip_words(args.inputs, args.clips);
-        const Target target = args.live_max_error > 0
-                                  ? Target{ErrorMetric::kMaxError, args.live_max_error, true}
-                                  : Target{ErrorMetric::kKg, args.one_kg, false};
-        return std::vector{
-            run_live(args.bench, target, args.live_frames, args.key_every, args.runs)};
-      });
+      add(bench, "live", "Bytes of live streams and whole clips, time to encode and open files",
+          [](Arguments& args) {
+            args.bench.clips = clip_words(args.inputs, args.clips);
+            const Target target = args.live_max_error > 0
+                                      ? Target{ErrorMetric::kMaxError, args.live_max_error, true}
+                                      : Target{ErrorMetric::kKg, args.one_kg, false};
+            return std::vector{
+                run_live(args.bench, target, args.live_frames, args.key_every, args.runs)};
+          });
   options.number("--kg", a.one_kg, "PCT", kPositive, "KG error in per cent (default 0.1)");
   options.number("--frames", a.live_frames, "N", {1, 100000}, "Frames of a file (default 30)");
   options.number("--max-error", a.live_max_error, "PCT", kPositive,
                  "Largest error, in per cent of the whole clip's diagonal, instead");
-  options.number("--key-every", a.key_every, "SECONDS", {0, 1e6}, "As for anicodec encode (default 4)");
+  options.number("--key-every", a.key_every, "SECONDS", {0, 1e6},
+                 "As for anicodec encode (default 4)");
   options.number("--runs", a.runs, "N", {1, 1000}, "Runs to take the median of (default 5)");
   add_basis(options, a);
 }
@@ -381,9 +385,9 @@ void add_massage(Bench& bench) {
 
 void declare(tools::Commands& commands, tools::CommonOptions& common, Arguments& arguments) {
   Bench bench{commands, common, arguments};
-  for (auto add_bench :
-       {add_rate, add_gltf, add_near, add_lossless, add_ablate, add_encode, add_decode, add_open, add_live, add_play,
-        add_blend, add_auto, add_poses, add_between, add_keyframes, add_mesh, add_pose, add_msgi, add_massage})
+  for (auto add_bench : {add_rate, add_gltf, add_near, add_lossless, add_ablate, add_encode,
+                         add_decode, add_open, add_live, add_play, add_blend, add_auto, add_poses,
+                         add_between, add_keyframes, add_mesh, add_pose, add_msgi, add_massage})
     add_bench(bench);
 }
 

@@ -11,11 +11,12 @@
 #include "tests/bench/stopwatch.h"
 #include "tools/words/names.h"
 
+#include <anicodec/anicodec.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <string_view>
 
-#include <anicodec/anicodec.h>
 #include <malloc.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -51,10 +52,9 @@ class Steps : public DecodingTrace {
 class MappedMemory {
  public:
   explicit MappedMemory(size_t size) : size_(size) {
-    block_ = mmap(nullptr, size, PROT_READ | PROT_WRITE,
-                  MAP_PRIVATE | MAP_ANONYMOUS | MAP_POPULATE, -1, 0);
-    if (block_ == MAP_FAILED ||
-        anic_init_block_allocator(block_, size, &allocator_) != ANIC_OK)
+    block_ = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_POPULATE,
+                  -1, 0);
+    if (block_ == MAP_FAILED || anic_init_block_allocator(block_, size, &allocator_) != ANIC_OK)
       throw Error(ErrorKind::kInternal, "no memory");
     memory_ = {allocator_.user, allocator_.allocate, allocator_.release};
   }
@@ -153,16 +153,18 @@ Table run_open(const BenchOptions& options, double kg, int runs) {
                        options.effort, options.verbose, OrderMode::kFree, smallest);
       const Bytes& file = timed.result.file;
       const ByteView base = up_to_the_first("SEGM", file), layer = up_to_the_first("BASI", file);
+
       enum : size_t { kOpening, kBase, kLayer, kStream };
-      const Turns turns(
-          runs, opening_of(file), opening_of_prefix(base), opening_of_prefix(layer), [&] {
-            KeptMeshes kept;
-            OpenOptions more;
-            more.prefix = true;
-            more.kept = &kept;
-            for (const ByteView arrived : {base, layer, ByteView(file)})
-              opening_of(arrived, more)();
-          });
+
+      const Turns turns(runs, opening_of(file), opening_of_prefix(base), opening_of_prefix(layer),
+                        [&] {
+                          KeptMeshes kept;
+                          OpenOptions more;
+                          more.prefix = true;
+                          more.kept = &kept;
+                          for (const ByteView arrived : {base, layer, ByteView(file)})
+                            opening_of(arrived, more)();
+                        });
       const double opening = turns.seconds(kOpening);
       const MemoryUse memory = memory_use(file, runs);
       std::vector<Steps> all(static_cast<size_t>(runs));

@@ -66,10 +66,11 @@ Table run_static_pose(const BenchOptions& options, double kg, int runs) {
       rounded.push_back(static_cast<int32_t>(std::lround(pose(i / 3, i % 3) / step)));
     const DracoPoses draco = encode_draco_poses(layout.topology, {&rounded, 1});
     row["draco"] = draco.bytes.size();
-    row["draco_us"] = 1e6 / n * median_thread_seconds(runs, [&] {
-                        Vector<Vector<int32_t>> poses;
-                        (void)decode_draco_poses(draco.bytes, layout.topology, draco.points, 1, &poses);
-                      });
+    row["draco_us"] =
+        1e6 / n * median_thread_seconds(runs, [&] {
+          Vector<Vector<int32_t>> poses;
+          (void)decode_draco_poses(draco.bytes, layout.topology, draco.points, 1, &poses);
+        });
     PosePartners partners;
     row["search_us"] =
         1e6 / n * median_thread_seconds(runs, [&] { partners = find_partners(pose, corners); });

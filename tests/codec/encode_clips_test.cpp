@@ -73,13 +73,15 @@ TEST_P(PercentOfClips, IsOfTheDiagonalOfEach) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Targets, PercentOfClips,
-    testing::Values(Asked{"MaxError", {ErrorMetric::kMaxError, 0.5, true}},
-                    Asked{"Rmse", {ErrorMetric::kRmse, 0.1, true}},
-                    Asked{"Displacement", {ErrorMetric::kDisplacement, 0.2, true}},
-                    Asked{"MaxErrorOfKeyframes", {ErrorMetric::kMaxError, 0.5, true}, BasisChoice::kKeyframes}),
-    [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(Targets, PercentOfClips,
+                         testing::Values(Asked{"MaxError", {ErrorMetric::kMaxError, 0.5, true}},
+                                         Asked{"Rmse", {ErrorMetric::kRmse, 0.1, true}},
+                                         Asked{"Displacement",
+                                               {ErrorMetric::kDisplacement, 0.2, true}},
+                                         Asked{"MaxErrorOfKeyframes",
+                                               {ErrorMetric::kMaxError, 0.5, true},
+                                               BasisChoice::kKeyframes}),
+                         [](const auto& test) { return std::string(test.param.name); });
 
 TEST(EncodeClips, ACapInPerCentIsOfEachClip) {
   const MeshSequence source = small_and_large(20);
@@ -98,7 +100,8 @@ TEST(EncodeClips, ClipsThatAreAllPointsTakeTheBoundOfTheWhole) {
   MeshSequence source;
   source.vertex_count = 1;
   source.frame_count = 3;
-  source.positions = {-1494.75F, 17486.25F, 1900, -1494.75F, 8002.5F, 1900, -1494.75F, 8002.5F, 1900};
+  source.positions = {-1494.75F, 17486.25F, 1900,    -1494.75F, 8002.5F,
+                      1900,      -1494.75F, 8002.5F, 1900};
   for (const uint32_t frames : {1U, 2U}) {
     ClipTiming& clip = source.clips.emplace_back();
     clip.name = std::to_string(frames);

@@ -59,8 +59,8 @@ void expect_source(const Bytes& file, const MeshSequence& source) {
 }
 
 TEST(Lossless, GivesEveryClipOfTheCorpusBackBitForBit) {
-  for (const char* name : {"limb", "soup", "static", "one_frame", "one_vertex", "points", "tiny", "large",
-                           "repeats", "leftovers", "uneven", "polygons"}) {
+  for (const char* name : {"limb", "soup", "static", "one_frame", "one_vertex", "points", "tiny",
+                           "large", "repeats", "leftovers", "uneven", "polygons"}) {
     SCOPED_TRACE(name);
     const MeshSequence source = corpus::make_clip(name);
     expect_source(encode(source, lossless()).file, source);
@@ -70,7 +70,8 @@ TEST(Lossless, GivesEveryClipOfTheCorpusBackBitForBit) {
 TEST(Lossless, GoesWithEveryBasisAndOrder) {
   MeshSequence source = corpus::make_scaled("limb", 200, 12);
   source.positions[7] = -0.0F;
-  for (BasisChoice basis : {BasisChoice::kKeyframes, BasisChoice::kEigenshapes, BasisChoice::kEigentrajectories}) {
+  for (BasisChoice basis :
+       {BasisChoice::kKeyframes, BasisChoice::kEigenshapes, BasisChoice::kEigentrajectories}) {
     for (OrderMode order : {OrderMode::kVertices, OrderMode::kAll}) {
       EncodeOptions options = lossless(basis);
       options.order = order;
@@ -151,7 +152,8 @@ TEST(Lossless, PartsAreJoinedAndClipsAddedAndRemoved) {
 
   MeshSequence other = corpus::make_scaled("limb", 150, 7);
   other.name = "other";
-  const Bytes two = add_clips({"joined", joined}, {"other", encode(other, lossless(BasisChoice::kEigenshapes)).file});
+  const Bytes two = add_clips({"joined", joined},
+                              {"other", encode(other, lossless(BasisChoice::kEigenshapes)).file});
   const Clip clip = opened(two);
   EXPECT_TRUE(same_bits(clip, 0, 3, source.frame(3)));
   EXPECT_TRUE(same_bits(clip, 0, 23, other.frame(3)));
@@ -167,7 +169,8 @@ TEST(Lossless, IsLeftClosedAtLowerQualityOrWhenAsked) {
   for (const OpenOptions& options : {closed, coarse}) {
     const Clip clip = opened(file, options);
     EXPECT_FALSE(same_bits(clip, 0, 5, source.frame(5)));
-    EXPECT_LE(clip.resident_bytes(), estimate_memory(clip.limits(), options.quality, false).resident);
+    EXPECT_LE(clip.resident_bytes(),
+              estimate_memory(clip.limits(), options.quality, false).resident);
   }
   EXPECT_LT(estimate_memory(opened(file).limits(), 1, false).resident + 12 * 200 * 12 - 1,
             estimate_memory(opened(file).limits()).resident);
@@ -193,7 +196,8 @@ TEST(Lossless, EveryPrefixPlaysOrIsRefusedAndTheWholeIsExact) {
 TEST(Lossless, GoesWithoutMassage) {
   MassageVerdict verdict;
   try {
-    encode_massaged(corpus::make_scaled("limb", 100, 6), MassageMode::kOn, {}, lossless(), &verdict);
+    encode_massaged(corpus::make_scaled("limb", 100, 6), MassageMode::kOn, {}, lossless(),
+                    &verdict);
     FAIL();
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::kUsage);

@@ -90,8 +90,8 @@ TEST(MsgiEncode, SamplesBetweenFrames) {
   Clip clip;
   open(result, clip);
   std::vector<float> buffer(sample_size(clip, 0).buffer()),
-      scratch(sample_size(clip, 0).scratch / sizeof(float)),
-      whole(3 * size_t{helix.vertex_count}), x = whole, before = whole, after = whole;
+      scratch(sample_size(clip, 0).scratch / sizeof(float)), whole(3 * size_t{helix.vertex_count}),
+      x = whole, before = whole, after = whole;
   auto sample_at = [&](FrameMix mix, std::vector<float>& out) {
     const Sample sample = make_sample(clip, 0, mix, buffer.data(), scratch.data());
     VertexOutput output;

@@ -122,7 +122,8 @@ TEST_F(RefusedFile, FeaturesThatAreNotThoseOfTheSegments) {
   unknown.features |= uint64_t{1} << 17;
   EXPECT_EQ(status_of(unknown), Status::kFeature);
   Clip clip;
-  EXPECT_STREQ(clip.open(unknown.bytes()).detail, "the file needs feature 17, which this decoder does not know");
+  EXPECT_STREQ(clip.open(unknown.bytes()).detail,
+               "the file needs feature 17, which this decoder does not know");
 }
 
 TEST_F(RefusedFile, DracoBytesThatAreNotThere) {

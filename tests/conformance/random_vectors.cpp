@@ -113,7 +113,7 @@ class RandomVector {
         Numbers numbers(n);
         Vector<uint8_t> result(n);
         for (uint32_t v = 0; v < n; ++v)  // none of them is empty
-          result[v] = static_cast<uint8_t>(v < regions   ? v
+          result[v] = static_cast<uint8_t>(v < regions ? v
                                            : scattered ? numbers.below(regions)
                                                        : uint64_t{v} * regions / n);
         return result;

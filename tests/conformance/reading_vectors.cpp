@@ -63,7 +63,8 @@ Bytes corner_values() {
     uv.values.push_back(static_cast<float>((static_cast<int32_t>(number * 7 % 23) - 11) / 4096.0));
   };
   for (uint32_t i = 0; i < kSingle; ++i) {
-    clip.polygons.add(std::vector<uint32_t>{vertex(i, 5, 0), vertex(i + 0.5, 5, 1), vertex(i, 6, 1)});
+    clip.polygons.add(
+        std::vector<uint32_t>{vertex(i, 5, 0), vertex(i + 0.5, 5, 1), vertex(i, 6, 1)});
     for (uint32_t k = 0; k < 3; ++k)
       value(numbers.below(500));
   }
@@ -97,7 +98,8 @@ Bytes second_triple() {
   for (uint32_t f = 0; f < clip.frame_count; ++f) {
     for (uint32_t v = 0; v < clip.vertex_count; ++v) {
       for (uint32_t c = 0; c < 5; ++c)
-        five.values.push_back(static_cast<float>(v % 7 + c + (c < 3 ? 0 : 0.5 * std::sin(f + 0.1 * v))));
+        five.values.push_back(
+            static_cast<float>(v % 7 + c + (c < 3 ? 0 : 0.5 * std::sin(f + 0.1 * v))));
     }
   }
   clip.attributes.push_back(std::move(five));
@@ -197,7 +199,8 @@ Bytes joined_corners() {
     shared = at[kSide - 1][kSide - 1];
     for (uint32_t y = 0; y + 1 < kSide; ++y) {
       for (uint32_t x = 0; x + 1 < kSide; ++x)
-        clip.polygons.add(std::vector<uint32_t>{at[y][x], at[y][x + 1], at[y + 1][x + 1], at[y + 1][x]});
+        clip.polygons.add(
+            std::vector<uint32_t>{at[y][x], at[y][x + 1], at[y + 1][x + 1], at[y + 1][x]});
     }
   }
   clip.vertex_count = static_cast<uint32_t>(rest.size() / 3);
@@ -206,8 +209,10 @@ Bytes joined_corners() {
     for (size_t i = 0; i < rest.size(); i += 3) {  // wound up along x
       const double turn = 0.05 * f * rest[i];
       clip.positions.push_back(rest[i]);
-      clip.positions.push_back(static_cast<float>(rest[i + 1] * std::cos(turn) - rest[i + 2] * std::sin(turn)));
-      clip.positions.push_back(static_cast<float>(rest[i + 1] * std::sin(turn) + rest[i + 2] * std::cos(turn)));
+      clip.positions.push_back(
+          static_cast<float>(rest[i + 1] * std::cos(turn) - rest[i + 2] * std::sin(turn)));
+      clip.positions.push_back(
+          static_cast<float>(rest[i + 1] * std::sin(turn) + rest[i + 2] * std::cos(turn)));
     }
   }
   EncodeOptions options;
@@ -243,7 +248,8 @@ Bytes keyframe_partners() {
       Vector<Vector<int32_t>> poses;
       if (SegmentRecord::read(payload, &record) != Status::kOk ||
           keyframes.read(record.parameters, sizes) != Status::kOk ||
-          decode_poses(record.pose, table, PoseSteps::kAny, keyframes.parents, &poses) != Status::kOk)
+          decode_poses(record.pose, table, PoseSteps::kAny, keyframes.parents, &poses) !=
+              Status::kOk)
         throw Error(ErrorKind::kInternal, "the key-frames cannot be read");
       keyframes.parents.assign(poses.size(), 0);
       Numbers numbers;
@@ -251,7 +257,9 @@ Bytes keyframe_partners() {
       const uint32_t n = table.vertex_count();
       for (uint32_t v = 0; v < n; ++v) {
         const uint32_t kind = numbers.below(6);
-        partners.partner.push_back(kind == 0 ? PosePartners::kNone : kind == 1 ? v : v - std::min(v, 1 + v / 7 % 30));
+        partners.partner.push_back(kind == 0   ? PosePartners::kNone
+                                   : kind == 1 ? v
+                                               : v - std::min(v, 1 + v / 7 % 30));
         partners.flips.push_back(static_cast<uint8_t>(numbers.below(8)));
       }
       parameters = keyframes.write();
@@ -295,7 +303,8 @@ MeshSequence degrees() {
     for (const auto& [a, b] : {std::pair(1U, 3U), std::pair(1U, 5U), std::pair(1U, 7U)})
       clip.polygons.add(std::vector<uint32_t>{ring(i), ring(i + a), ring(i + b)});
     if (i % 5 == 0)
-      clip.polygons.add(std::vector<uint32_t>{ring(i), ring(i + 1), ring(i + 20 + numbers.below(40))});
+      clip.polygons.add(
+          std::vector<uint32_t>{ring(i), ring(i + 1), ring(i + 20 + numbers.below(40))});
   }
   clip.vertex_count = static_cast<uint32_t>(rest.size() / 3);
   shake(&clip, rest, 3);
@@ -303,12 +312,14 @@ MeshSequence degrees() {
 }
 
 Bytes limits_of_degrees() {
-  return file_of(degrees(), {recipe(3, BasisKind::kEigenshapes, 0.004, 8, 3, 12, RefitSchedule::kSparse)});
+  return file_of(degrees(),
+                 {recipe(3, BasisKind::kEigenshapes, 0.004, 8, 3, 12, RefitSchedule::kSparse)});
 }
 
 /// Sixteen vertices that are all neighbours of one another: one in sixteen leaves a level, no less.
 Bytes one_in_sixteen() {
-  return file_of(cliques(16), {recipe(4, BasisKind::kEigenshapes, 0.004, 8, 2, 12, RefitSchedule::kSparse)});
+  return file_of(cliques(16),
+                 {recipe(4, BasisKind::kEigenshapes, 0.004, 8, 2, 12, RefitSchedule::kSparse)});
 }
 
 /// Exact positions that are zeros below 0, after others by which a filter learns that neighbours count
@@ -334,7 +345,8 @@ Bytes signed_zeros() {
     const uint32_t* near = neighbours.of(v);
     const float o = y[near[0]], others = y[near[1]] + y[near[2]] + y[near[3]];
     const bool zero = layout.coded_source[v] >= kTaught;
-    y[v] = zero ? -0.0F : o - 0.3F * (others - 3 * o) + static_cast<float>(numbers.within(1000)) / 997;
+    y[v] =
+        zero ? -0.0F : o - 0.3F * (others - 3 * o) + static_cast<float>(numbers.within(1000)) / 997;
   }
   for (uint32_t v = 0; v < clip.vertex_count; ++v)
     clip.positions[3 * v + 1] = y[layout.source_coded[v]];
@@ -356,7 +368,8 @@ class RandomCoder {
   }
 
   bool bit(uint32_t p, bool = false) {
-    return encoder_.bit(p, count_ < first_.size() ? first_[count_++] : numbers_.below(kProbabilityOne) < p);
+    return encoder_.bit(
+        p, count_ < first_.size() ? first_[count_++] : numbers_.below(kProbabilityOne) < p);
   }
 
   bool bit(AdaptiveBit& model, bool = false) {
@@ -392,10 +405,13 @@ bool meets_itself(const Topology& topology) {
     ++copies[v];
   for (size_t p = 0; p + 1 < topology.polygon_offsets.size(); ++p) {
     const uint32_t begin = topology.polygon_offsets[p], n = topology.polygon_offsets[p + 1] - begin;
-    const auto at = [&](uint32_t i) { return topology.vertex_coded[topology.polygon_corners[begin + i % n]]; };
+    const auto at = [&](uint32_t i) {
+      return topology.vertex_coded[topology.polygon_corners[begin + i % n]];
+    };
     for (uint32_t i = 0; i < n; ++i) {
       for (uint32_t k = 0; k < n; ++k) {
-        if (at(i) == at(k + 1) && at(i + 1) == at(k) && i != k && copies[at(i)] > 1 && copies[at(k)] > 1)
+        if (at(i) == at(k + 1) && at(i + 1) == at(k) && i != k && copies[at(i)] > 1 &&
+            copies[at(k)] > 1)
           return true;
       }
     }
@@ -415,7 +431,8 @@ Bytes self_meeting() {
     layout.topology = {};
     RandomCoder coder(seed, {true, false});  // no polygon apart, none repeated
     NoMesh none;
-    if (FacesCoding<RandomCoder, NoMesh>(coder, none, layout.sizes, &layout.topology).run() == Status::kOk &&
+    if (FacesCoding<RandomCoder, NoMesh>(coder, none, layout.sizes, &layout.topology).run() ==
+            Status::kOk &&
         meets_itself(layout.topology)) {
       layout.faces = coder.finish();
       break;
@@ -425,9 +442,12 @@ Bytes self_meeting() {
   clip.name = "self meeting";
   clip.vertex_count = layout.sizes.source_vertices;
   clip.frame_count = 3;
-  clip.polygons.offsets.assign(layout.topology.polygon_offsets.begin(), layout.topology.polygon_offsets.end());
-  clip.polygons.corners.assign(layout.topology.polygon_corners.begin(), layout.topology.polygon_corners.end());
-  layout.source_coded.assign(layout.topology.vertex_coded.begin(), layout.topology.vertex_coded.end());
+  clip.polygons.offsets.assign(layout.topology.polygon_offsets.begin(),
+                               layout.topology.polygon_offsets.end());
+  clip.polygons.corners.assign(layout.topology.polygon_corners.begin(),
+                               layout.topology.polygon_corners.end());
+  layout.source_coded.assign(layout.topology.vertex_coded.begin(),
+                             layout.topology.vertex_coded.end());
   for (uint32_t v = 0; v < clip.vertex_count; ++v) {
     if (v == 0 || layout.source_coded[v] != layout.source_coded[v - 1])
       layout.coded_source.push_back(v);
@@ -442,9 +462,11 @@ Bytes self_meeting() {
     for (float& x : places)
       x = static_cast<float>(numbers.within(1000)) / 100;
     for (const uint32_t v : layout.source_coded)
-      clip.positions.insert(clip.positions.end(), places.begin() + 3 * v, places.begin() + 3 * v + 3);
+      clip.positions.insert(clip.positions.end(), places.begin() + 3 * v,
+                            places.begin() + 3 * v + 3);
   }
-  return file_of(clip, {recipe(3, BasisKind::kEigenshapes, 0.01, 8, 1, 12, RefitSchedule::kNone)}, {}, &layout);
+  return file_of(clip, {recipe(3, BasisKind::kEigenshapes, 0.01, 8, 1, 12, RefitSchedule::kNone)},
+                 {}, &layout);
 }
 
 /// Refits of a matrix that binary32 makes singular: a pivot of 0, weights that are not numbers. Three
@@ -476,7 +498,13 @@ class SingularRefits {
     for (uint32_t j = 0; j < kComponents; ++j) {
       for (uint32_t c = 0; c < kChannels; ++c) {
         const bool first = j == 0 && c == 0, small = j > 0 && samples++ >= left_out;
-        const float wanted[3] = {first ? 66000.0F : small ? 27.0F : 0, first ? 66000.0F : small ? 15.0F : 0, 0};
+        const float wanted[3] = {first   ? 66000.0F
+                                 : small ? 27.0F
+                                         : 0,
+                                 first   ? 66000.0F
+                                 : small ? 15.0F
+                                         : 0,
+                                 0};
         float y[3] = {};
         for (size_t r = 0; r < 3; ++r)
           y[r] = code(order, r, y, wanted[r], &solvers[r]);
@@ -509,7 +537,8 @@ class SingularRefits {
       p0 += solver->prior[a][0] * x[0][a][0];
     }
     const float rounded = (std::clamp(p, -1048576.0F, 1048576.0F) * 64 + 12582912) - 12582912;
-    const float residual = std::round(wanted - rounded / 64), made = rounded / 64 + residual, omega = 1;
+    const float residual = std::round(wanted - rounded / 64), made = rounded / 64 + residual,
+                omega = 1;
     residuals_.push_back(static_cast<int32_t>(residual));
     error[0] += made - p0;
     solver->accumulate(x, error, &omega, 1);
@@ -541,8 +570,9 @@ Bytes singular() {
       if (++left_out > 60)
         throw Error(ErrorKind::kInternal, "no refit is singular");
     }
-    with_residuals([=](uint32_t j, uint32_t c, uint32_t rank) { return refits->residual(j, c, rank); },
-                   [](uint32_t) { return uint8_t{128}; })(segment, input);
+    with_residuals(
+        [=](uint32_t j, uint32_t c, uint32_t rank) { return refits->residual(j, c, rank); },
+        [](uint32_t) { return uint8_t{128}; })(segment, input);
   };
   return file_of(clip, {r});
 }
@@ -559,7 +589,8 @@ Bytes long_run() {
   for (uint32_t f = 0; f < kFrames; ++f) {
     for (uint32_t v = 0; v < 4; ++v) {
       for (uint32_t c = 0; c < 3; ++c)
-        clip.positions.push_back(static_cast<float>((v >> c & 1) + 0.1 * std::sin(0.01 * f * (v + 1) + c)));
+        clip.positions.push_back(
+            static_cast<float>((v >> c & 1) + 0.1 * std::sin(0.01 * f * (v + 1) + c)));
     }
   }
   Recipe r = recipe(kFrames, BasisKind::kEigentrajectories, 0.001, 8, 1, 12, RefitSchedule::kNone);
@@ -572,12 +603,16 @@ Bytes long_run() {
           case 1:
             return frame / 500 % 2 == 0 ? -kWeightLimit / 2 : kWeightLimit / 2;
           default:
-            return frame < 40 && frame % 2 == 1 ? kWeightLimit / 2 : frame < 40 ? -kWeightLimit / 2 : row;
+            return frame < 40 && frame % 2 == 1 ? kWeightLimit / 2
+                   : frame < 40                 ? -kWeightLimit / 2
+                                                : row;
         }
       },
-      [](uint32_t j) { return static_cast<uint32_t>(j % 3 == 0 ? WeightPredictor::kCosine
-                                                    : j % 3 == 1 ? WeightPredictor::kLine
-                                                                 : WeightPredictor::kRegression); });
+      [](uint32_t j) {
+        return static_cast<uint32_t>(j % 3 == 0   ? WeightPredictor::kCosine
+                                     : j % 3 == 1 ? WeightPredictor::kLine
+                                                  : WeightPredictor::kRegression);
+      });
   return file_of(clip, {r});
 }
 
@@ -586,7 +621,8 @@ Bytes quiet() {
   const MeshSequence clip = triangle("quiet", 3);
   Recipe r = recipe(3, BasisKind::kEigenshapes, 0.001, 8, 1, 12, RefitSchedule::kNone);
   r.settings.components = {1};
-  r.change = with_residuals([](uint32_t, uint32_t, uint32_t) { return 0; }, [](uint32_t) { return uint8_t{128}; });
+  r.change = with_residuals([](uint32_t, uint32_t, uint32_t) { return 0; },
+                            [](uint32_t) { return uint8_t{128}; });
   return file_of(clip, {r});
 }
 

@@ -171,8 +171,8 @@ std::string attribute(const Clip& clip, uint32_t mesh, uint32_t which) {
 struct OpenFile {
   Bytes bytes;
   Clip clip;
-  std::string metadata;                    ///< JSON; empty: there is none
-  std::vector<std::vector<Box>> boxes;     ///< of each mesh and frame; empty: there are none
+  std::string metadata;                 ///< JSON; empty: there is none
+  std::vector<std::vector<Box>> boxes;  ///< of each mesh and frame; empty: there are none
 };
 
 Failure read_unopened(OpenFile* out) {
@@ -187,7 +187,8 @@ Failure read_unopened(OpenFile* out) {
       return f;
     if (chunk.type == chunk_type("META")) {
       if (!is_metadata(payload))
-        return failure_in(chunk, Status::kRecord, "the metadata is too long, too deep, or no UTF-8");
+        return failure_in(chunk, Status::kRecord,
+                          "the metadata is too long, too deep, or no UTF-8");
       out->metadata.assign(payload.data, payload.data + payload.size);
       continue;
     }
@@ -271,8 +272,8 @@ std::string clip_facts(const Clip& clip, uint32_t of, const ClipRecord& r) {
     std::iota(frames.begin(), frames.end(), 0U);
     out.add("root", list(frames, [&](uint32_t f) {
               const RootState s = clip.root().at(of, f);
-              return "[" + number(s.turn) + "," + number(s.move[0]) + "," + number(s.move[1]) + "," +
-                     number(s.pivot[0]) + "," + number(s.pivot[1]) + "]";
+              return "[" + number(s.turn) + "," + number(s.move[0]) + "," + number(s.move[1]) +
+                     "," + number(s.pivot[0]) + "," + number(s.pivot[1]) + "]";
             }));
   }
   return out.str();
@@ -287,7 +288,8 @@ ClipRecord joined(const std::vector<OpenFile>& files) {
     const ClipRecord& r = file.clip.clips()[0];
     squares += r.frames * r.rmse * r.rmse;
     scaled += r.kg > 0 ? r.frames * std::pow(100 * r.rmse / r.kg, 2) : 0;
-    for (const double error : {r.max_displacement_error, all.frames > 0 ? before + r.max_error : 0.0})
+    for (const double error :
+         {r.max_displacement_error, all.frames > 0 ? before + r.max_error : 0.0})
       all.max_displacement_error = std::max(all.max_displacement_error, error);
     all.frames += r.frames;
     all.max_error = std::max(all.max_error, r.max_error);
@@ -329,12 +331,14 @@ int refused(const Failure& failure) {
 }
 
 /// Whether a continuation follows a file with the meshes that it needs.
-Failure check_meshes(const ContainerReader& file, const OpenOptions& options, const ContainerReader& before) {
+Failure check_meshes(const ContainerReader& file, const OpenOptions& options,
+                     const ContainerReader& before) {
   Limits limits;
   if (Failure f = read_limits(file, options, &limits); !f.ok())
     return f;
   if (!limits.continued_meshes)
-    return {Status::kRecord, 0, chunk_type("LIMI"), "the file does not say which meshes it continues"};
+    return {Status::kRecord, 0, chunk_type("LIMI"),
+            "the file does not say which meshes it continues"};
   if (*limits.continued_meshes != mesh_hash(before))
     return {Status::kMeshes, 0, chunk_type("LIMI"), "the file continues a file with other meshes"};
   return {};
@@ -380,7 +384,8 @@ int decode(const char* path, const std::string& out) {
   OpenOptions options;
   options.limits.resident_bytes = uint64_t{256} << 20;
   std::vector<OpenFile> files;
-  if (Failure f = files_of(Bytes(std::istreambuf_iterator<char>(file), {}), options, &files); !f.ok())
+  if (Failure f = files_of(Bytes(std::istreambuf_iterator<char>(file), {}), options, &files);
+      !f.ok())
     return refused(f);
   std::vector<Positions> positions;
   KeptLearning learning;

@@ -608,7 +608,8 @@ Bytes exact() {
       clip.positions.push_back(v % 9 == 0   ? -0.0F
                                : v % 9 == 1 ? 1e-40F * static_cast<float>(g)
                                             : static_cast<float>(y + 1e-3 * (noise % 11) * x));
-      clip.positions.push_back(static_cast<float>((90 * (x ^ y) + 11 * g + noise % 16) / 1024.0 - 0.25));
+      clip.positions.push_back(
+          static_cast<float>((90 * (x ^ y) + 11 * g + noise % 16) / 1024.0 - 0.25));
     }
   }
   EncodeOptions options;
@@ -637,7 +638,8 @@ Bytes domains_of(bool empty) {
       }
     }
   }
-  clip.polygons.add(std::vector<uint32_t>{kSide * kSide, kSide * kSide + 1, 7});  // copies of the first two
+  clip.polygons.add(
+      std::vector<uint32_t>{kSide * kSide, kSide * kSide + 1, 7});  // copies of the first two
   if (empty)
     clip.polygons.add(std::vector<uint32_t>{});
   for (uint32_t f = 0; f < kFrames; ++f) {
@@ -650,8 +652,16 @@ Bytes domains_of(bool empty) {
     }
   }
   const size_t corners = clip.polygons.corners.size(), polygons = clip.polygons.size();
-  Attribute uv{.kind = AttributeKind::kUv, .name = "uv", .domain = AttributeDomain::kCorner, .frames = kFrames, .values = {}};
-  Attribute cells{.name = "cells", .domain = AttributeDomain::kPolygon, .components = 4, .frames = kFrames, .values = {}};
+  Attribute uv{.kind = AttributeKind::kUv,
+               .name = "uv",
+               .domain = AttributeDomain::kCorner,
+               .frames = kFrames,
+               .values = {}};
+  Attribute cells{.name = "cells",
+                  .domain = AttributeDomain::kPolygon,
+                  .components = 4,
+                  .frames = kFrames,
+                  .values = {}};
   Attribute heat{.name = "heat", .components = 1, .frames = kFrames, .values = {}};
   cells.kind = heat.kind = AttributeKind::kCustom;
   for (uint32_t f = 0; f < kFrames; ++f) {
@@ -663,12 +673,18 @@ Bytes domains_of(bool empty) {
     }
     for (size_t p = 0; p < polygons; ++p) {
       for (int k = 0; k < 4; ++k)
-        cells.values.push_back(static_cast<float>(10 * k + std::sin(0.4 * p + 0.6 * f * (k + 1)) * (k + 1)));
+        cells.values.push_back(
+            static_cast<float>(10 * k + std::sin(0.4 * p + 0.6 * f * (k + 1)) * (k + 1)));
     }
     for (uint32_t v = 0; v < kVertices; ++v)
-      heat.values.push_back(static_cast<float>(20 + std::cos(0.3 * v + f) + (v == kSide * kSide ? 2.0 * f : 0)));
+      heat.values.push_back(
+          static_cast<float>(20 + std::cos(0.3 * v + f) + (v == kSide * kSide ? 2.0 * f : 0)));
   }
-  Attribute paint{.kind = AttributeKind::kColour, .name = "paint", .domain = AttributeDomain::kPolygon, .components = 3, .values = {}};
+  Attribute paint{.kind = AttributeKind::kColour,
+                  .name = "paint",
+                  .domain = AttributeDomain::kPolygon,
+                  .components = 3,
+                  .values = {}};
   for (size_t i = 0; i < 3 * polygons; ++i)
     paint.values.push_back(static_cast<float>(i / 12 % 3) / 2);
   clip.attributes = {uv, cells, heat, paint};
@@ -688,28 +704,28 @@ Bytes empty_polygon() {
 }
 
 constexpr SpecialVector kVectors[] = {{"schedules", schedules},
-                               {"alike", alike},
-                               {"vertex_order", vertex_order},
-                               {"rings", rings_by_degree},
-                               {"weights_in_time", weights_in_time},
-                               {"clips", clips},
-                               {"walk", walk},
-                               {"walk_y_up", walk_y_up},
-                               {"exact", exact},
-                               {"domains", domains},
-                               {"empty_polygon", empty_polygon},
-                               {"saturated", saturated},
-                               {"layers", layers},
-                               {"regions", regions},
-                               {"exact_regions", exact_regions},
-                               {"partners", partners},
-                               {"other_parents", other_parents},
-                               {"draco_parents", draco_parents},
-                               {"scene", scene},
-                               {"cliques", cliques_of_vertices},
-                               {"turned", turned},
-                               {"flowers", flowers},
-                               {"tangle", tangle}};
+                                      {"alike", alike},
+                                      {"vertex_order", vertex_order},
+                                      {"rings", rings_by_degree},
+                                      {"weights_in_time", weights_in_time},
+                                      {"clips", clips},
+                                      {"walk", walk},
+                                      {"walk_y_up", walk_y_up},
+                                      {"exact", exact},
+                                      {"domains", domains},
+                                      {"empty_polygon", empty_polygon},
+                                      {"saturated", saturated},
+                                      {"layers", layers},
+                                      {"regions", regions},
+                                      {"exact_regions", exact_regions},
+                                      {"partners", partners},
+                                      {"other_parents", other_parents},
+                                      {"draco_parents", draco_parents},
+                                      {"scene", scene},
+                                      {"cliques", cliques_of_vertices},
+                                      {"turned", turned},
+                                      {"flowers", flowers},
+                                      {"tangle", tangle}};
 
 int run(int argc, char** argv) {
   std::vector<SpecialVector> vectors(std::begin(kVectors), std::end(kVectors));

@@ -57,9 +57,9 @@ Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
     const size_t most = recipe.frames > 1000 ? std::ranges::max(recipe.settings.components) : 1000;
     const LinearBasis basis =
         recipe.region_of
-            ? RegionAnalysis(std::make_shared<const RegionClips>(
-                                 frames, recipe.region_of(input.layout.sizes.coded_vertices),
-                                 recipe.regions))
+            ? RegionAnalysis(
+                  std::make_shared<const RegionClips>(
+                      frames, recipe.region_of(input.layout.sizes.coded_vertices), recipe.regions))
                   .basis(analysis, ReferencePose::kRankThree, 1000)
             : analysis.basis(recipe.kind, shapes ? ReferencePose::kMean : ReferencePose::kRankThree,
                              shapes ? Base::kPose : Base::kAffine, most, 0);
@@ -303,8 +303,8 @@ namespace {
 LinearParameters parameters_of(const EncodedSegment& segment) {
   LinearParameters parameters;
   const size_t runs = std::max<size_t>(segment.runs.size(), 1);
-  if (parameters.read(segment.parameters, segment.sizes.components, runs,
-                      segment.sizes.regions) != Status::kOk)
+  if (parameters.read(segment.parameters, segment.sizes.components, runs, segment.sizes.regions) !=
+      Status::kOk)
     throw Error(ErrorKind::kInternal, "the parameters cannot be read");
   return parameters;
 }
@@ -348,8 +348,9 @@ VertexOrder order_of(const EncodedSegment& segment, const Topology& topology) {
   return order;
 }
 
-StreamChange with_weights(const std::function<double(uint32_t j, uint32_t row, uint32_t frame)>& weight,
-                          const std::function<uint32_t(uint32_t j)>& predictor) {
+StreamChange with_weights(
+    const std::function<double(uint32_t j, uint32_t row, uint32_t frame)>& weight,
+    const std::function<uint32_t(uint32_t j)>& predictor) {
   return [=](EncodedSegment& segment, const EncoderInput&) {
     const uint32_t frames = segment.sizes.frames;
     const bool affine = segment.sizes.kind == BasisKind::kEigentrajectories;
@@ -395,8 +396,9 @@ void scramble_weights(EncodedSegment& segment, const EncoderInput& input) {
       [](uint32_t j) { return j % kWeightPredictors; })(segment, input);
 }
 
-StreamChange with_residuals(const std::function<int32_t(uint32_t j, uint32_t c, uint32_t r)>& residual,
-                            const std::function<uint8_t(uint32_t j)>& omega) {
+StreamChange with_residuals(
+    const std::function<int32_t(uint32_t j, uint32_t c, uint32_t r)>& residual,
+    const std::function<uint8_t(uint32_t j)>& omega) {
   return [=](EncodedSegment& segment, const EncoderInput& input) {
     LinearParameters parameters = parameters_of(segment);
     for (uint32_t j = 0; j < parameters.omega.size(); ++j)

@@ -89,8 +89,9 @@ StreamChange with_turned_partners(bool many_strands);
 
 /// Weights in time that are these, of component j of the base and then of the basis, in steps, each
 /// component by a predictor.
-StreamChange with_weights(const std::function<double(uint32_t j, uint32_t row, uint32_t frame)>& weight,
-                          const std::function<uint32_t(uint32_t j)>& predictor);
+StreamChange with_weights(
+    const std::function<double(uint32_t j, uint32_t row, uint32_t frame)>& weight,
+    const std::function<uint32_t(uint32_t j)>& predictor);
 
 /// Weights in time by each predictor, of numbers that suit none.
 void scramble_weights(EncodedSegment& segment, const EncoderInput& input);
@@ -100,8 +101,9 @@ VertexOrder order_of(const EncodedSegment& segment, const Topology& topology);
 
 /// Coefficients of other residuals: of component j, channel c and rank r. `omega` changes the weights of
 /// samples.
-StreamChange with_residuals(const std::function<int32_t(uint32_t j, uint32_t c, uint32_t r)>& residual,
-                            const std::function<uint8_t(uint32_t j)>& omega);
+StreamChange with_residuals(
+    const std::function<int32_t(uint32_t j, uint32_t c, uint32_t r)>& residual,
+    const std::function<uint8_t(uint32_t j)>& omega);
 
 /// Residuals at their limits: predictions saturate.
 void scramble_coefficients(EncodedSegment& segment, const EncoderInput& input);

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "bindings/engines/ogre/ogre_entity.h"
 
-#include "build_paths.h"
 #include "bindings/engines/ogre/ogre_plugin.h"
+#include "build_paths.h"
 
 #include <memory>
 #include <string>

@@ -58,7 +58,8 @@ TEST(BoundsRecord, RefusesWhatIsNone) {
   const Bytes good = record.write();
   for (size_t n = 0; n < good.size(); ++n)
     EXPECT_EQ(BoundsRecord::read({good.data(), n}, 200, &read), Status::kRecord) << n;
-  EXPECT_EQ(BoundsRecord::read(good, 63, &read), Status::kRecord);   // shares more frames than there are
+  EXPECT_EQ(BoundsRecord::read(good, 63, &read),
+            Status::kRecord);  // shares more frames than there are
   EXPECT_EQ(BoundsRecord::read(good, 300, &read), Status::kRecord);  // a box is missing
   record.all.high[1] = std::numeric_limits<float>::infinity();
   EXPECT_EQ(BoundsRecord::read(record.write(), 200, &read), Status::kRecord);

@@ -104,7 +104,8 @@ TEST(Continuation, ReadsLikeTheFileThatItIsWithItsMeshes) {
         continue;
       if (continuation.has(b)) {
         ASSERT_TRUE(continuation.payload(b, &seen).ok());
-        EXPECT_TRUE(std::equal(seen.data, seen.data + seen.size, expected.data, expected.data + expected.size));
+        EXPECT_TRUE(std::equal(seen.data, seen.data + seen.size, expected.data,
+                               expected.data + expected.size));
       } else {
         EXPECT_FALSE(n == both.size() || is_of_mesh(b));
       }

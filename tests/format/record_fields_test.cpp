@@ -92,7 +92,8 @@ TEST(RecordFields, OfSegmentsSayWhatTheyContinue) {
   ASSERT_EQ(SegmentRecord::read(segment.write(), &read), Status::kOk);
   EXPECT_EQ(read.continued, segment.continued);
   segment.continued = 0;
-  for (const uint8_t size : {uint8_t{0}, uint8_t{7}, uint8_t{8}, uint8_t{9}}) {  // of 8 bytes, 0 is none
+  for (const uint8_t size :
+       {uint8_t{0}, uint8_t{7}, uint8_t{8}, uint8_t{9}}) {  // of 8 bytes, 0 is none
     Bytes bytes = segment.write();
     bytes.insert(bytes.end(), {1, size});
     bytes.resize(bytes.size() + size);

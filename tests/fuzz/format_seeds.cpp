@@ -32,9 +32,11 @@ class Seeds {
            const Bytes& tail = {}) {
     std::filesystem::create_directories(folder_ / target);
     std::ofstream out(folder_ / target / name, std::ios::binary);
-    out.write(reinterpret_cast<const char*>(head.data()), static_cast<std::streamsize>(head.size()));
+    out.write(reinterpret_cast<const char*>(head.data()),
+              static_cast<std::streamsize>(head.size()));
     out.write(reinterpret_cast<const char*>(rest.data), static_cast<std::streamsize>(rest.size));
-    out.write(reinterpret_cast<const char*>(tail.data()), static_cast<std::streamsize>(tail.size()));
+    out.write(reinterpret_cast<const char*>(tail.data()),
+              static_cast<std::streamsize>(tail.size()));
     good_ = good_ && out.flush();
   }
 
@@ -110,8 +112,8 @@ void add_coefficients(Seeds& seeds) {
   for (const size_t vertices : {1, 40, 255}) {
     for (const size_t channels : {1, 3}) {
       for (const int32_t limit : {3, 40, 1 << 20}) {
-        const std::string name = std::to_string(vertices) + "_" + std::to_string(channels) + "_" +
-                                 std::to_string(limit);
+        const std::string name =
+            std::to_string(vertices) + "_" + std::to_string(channels) + "_" + std::to_string(limit);
         const FuzzNeighbours levels(static_cast<uint32_t>(vertices));
         RansEncoder encoder;
         CoefficientModel model(static_cast<uint32_t>(channels), levels.ranks.data(), kStride,

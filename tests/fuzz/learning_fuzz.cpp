@@ -53,7 +53,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   size_t next = 0;
   for (size_t i = 0; i < kMostOpenings && status == ANIC_OK && !files.empty(); ++i) {
     // The next one as a rule.
-    const size_t number = script.byte() % 4 == 0 ? script.below(static_cast<uint32_t>(files.size())) : next;
+    const size_t number =
+        script.byte() % 4 == 0 ? script.below(static_cast<uint32_t>(files.size())) : next;
     next = (number + 1) % files.size();
     status = anic_push_bytes(stream, files[number].data(), files[number].size());
     anic_stream_info info = ANIC_INIT(anic_stream_info);

@@ -6,13 +6,18 @@
  * usage: times CLIP.anic [ROUNDS]
  */
 #include <anicodec/anicodec.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
 
-static double used(void) { return (double)clock() / CLOCKS_PER_SEC; }
+static double used(void) {
+  return (double)clock() / CLOCKS_PER_SEC;
+}
 
-static double least(double a, double b) { return a < b ? a : b; }
+static double least(double a, double b) {
+  return a < b ? a : b;
+}
 
 int main(int argc, char** argv) {
   const int rounds = argc > 2 ? atoi(argv[2]) : 5;

@@ -85,7 +85,8 @@ TEST(SpecifiedNumbers, AreWhatIsExpectedOfAVertex) {
     for (int step = 0; step < 3; ++step) {
       const PosePrediction::Expectation e = prediction.expect(step);
       if (v == 4) {
-        EXPECT_EQ(specified(page, std::string("axis ") + "ijk"[step] + ": mean, scale, near, spread, before"),
+        EXPECT_EQ(specified(page, std::string("axis ") + "ijk"[step] +
+                                      ": mean, scale, near, spread, before"),
                   (std::vector<double>{e.mean, e.scale, e.near, e.spread, e.before}));
       }
       prediction.learn(step, pose[size_t{3} * v + prediction.axis(step)]);
@@ -94,7 +95,8 @@ TEST(SpecifiedNumbers, AreWhatIsExpectedOfAVertex) {
 }
 
 TEST(SpecifiedNumbers, AreCodedAsExactPositions) {
-  constexpr float kShown[3][4] = {{0.1F, 0.35F, -0.2F, 0.7F}, {0.13F, 0.4F, -0.21F, 0.79F}, {0.17F, 0.44F, -0.2F, 0.9F}};
+  constexpr float kShown[3][4] = {
+      {0.1F, 0.35F, -0.2F, 0.7F}, {0.13F, 0.4F, -0.21F, 0.79F}, {0.17F, 0.44F, -0.2F, 0.9F}};
   Topology topology;
   topology.coded_vertices = 4;
   topology.triangles = {0, 1, 2, 0, 2, 3, 1, 2, 3};
@@ -115,7 +117,8 @@ TEST(SpecifiedNumbers, AreCodedAsExactPositions) {
     stream += "0123456789abcdef"[byte >> 4];
     stream += "0123456789abcdef"[byte & 15];
   }
-  EXPECT_NE(specified_page("09d-exact-positions.md").find("`" + stream + "`"), std::string::npos) << stream;
+  EXPECT_NE(specified_page("09d-exact-positions.md").find("`" + stream + "`"), std::string::npos)
+      << stream;
 }
 
 }  // namespace

@@ -252,8 +252,9 @@ TEST_F(AttributesThatMove, AreComparedByName) {
 }
 
 TEST_F(AttributesThatMove, HaveTheErrorThatIsAskedFor) {
-  const Outcome outcome = anicodec({"encode", folder_ / "a_*.ply", "-o", folder_ / "b.anic", "--kg",
-                                    "0.5", "--effort", "fast", "--attribute-error", "2%", "--json"});
+  const Outcome outcome =
+      anicodec({"encode", folder_ / "a_*.ply", "-o", folder_ / "b.anic", "--kg", "0.5", "--effort",
+                "fast", "--attribute-error", "2%", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   for (const nlohmann::json& a : outcome.json()["moving_attributes"]) {
     EXPECT_LE(a["max_error"], a["asked"]);
@@ -267,8 +268,8 @@ TEST_F(AttributesThatMove, HaveTheErrorThatIsAskedFor) {
 TEST_F(AttributesThatMove, HaveBoundsAndUnitsByTheirNames) {
   const Outcome encoded =
       anicodec({"encode", folder_ / "a_*.ply", "-o", folder_ / "b.anic", "--kg", "0.5", "--effort",
-                "fast", "--json", "--field-error", "temperature=5%", "--field-unit", "temperature=K",
-                "--meta", "author=A"});
+                "fast", "--json", "--field-error", "temperature=5%", "--field-unit",
+                "temperature=K", "--meta", "author=A"});
   ASSERT_EQ(encoded.status, 0) << encoded.err;
   for (const nlohmann::json& a : encoded.json()["moving_attributes"])
     EXPECT_EQ(a["asked"] > 1, a["name"] == "temperature");
@@ -306,9 +307,11 @@ TEST(ObjAttributes, OfCornersThatMoveComeBackInEveryFrame) {
   const auto frame = [](int f) {
     std::string text;
     for (int v = 0; v < 9; ++v)
-      text += "v " + std::to_string(v % 3) + " " + std::to_string(v / 3) + " " + std::to_string(0.1 * f * (v % 4)) + "\n";
+      text += "v " + std::to_string(v % 3) + " " + std::to_string(v / 3) + " " +
+              std::to_string(0.1 * f * (v % 4)) + "\n";
     for (int v = 0; v < 9; ++v)
-      text += "vt " + std::to_string(0.5 * (v % 3) + 0.03 * f) + " " + std::to_string(0.5 * (v / 3)) + "\n";
+      text += "vt " + std::to_string(0.5 * (v % 3) + 0.03 * f) + " " +
+              std::to_string(0.5 * (v / 3)) + "\n";
     text += "vt " + std::to_string(1 - 0.05 * f) + " 0.25\n";  // of one corner alone
     text += "f 1/1 2/2 5/5 4/4\nf 2/2 3/3 6/6 5/10\nf 4/4 5/5 8/8 7/7\nf 5/5 6/6 9/9\n";
     return text;
@@ -317,8 +320,9 @@ TEST(ObjAttributes, OfCornersThatMoveComeBackInEveryFrame) {
     folder.write("a_" + std::to_string(f) + ".obj", frame(f));
   const MeshSequence source = load_sequence(std::vector<std::string>{folder / "a_*.obj"});
   ASSERT_EQ(source.attributes[0].frames, 6U);
-  const Outcome encoded = anicodec({"encode", folder / "a_*.obj", "-o", folder / "a.anic", "--order", "all",
-                                    "--max-error", "0.1%", "--attribute-error", "0.001"});
+  const Outcome encoded =
+      anicodec({"encode", folder / "a_*.obj", "-o", folder / "a.anic", "--order", "all",
+                "--max-error", "0.1%", "--attribute-error", "0.001"});
   ASSERT_EQ(encoded.status, 0) << encoded.err;
   EXPECT_EQ(anicodec({"verify", folder / "a.anic"}).status, 0);
   const nlohmann::json uv = anicodec({"info", folder / "a.anic", "--json"}).json()["attributes"][0];
@@ -326,8 +330,8 @@ TEST(ObjAttributes, OfCornersThatMoveComeBackInEveryFrame) {
   EXPECT_EQ(uv["moves"], true);
   for (const char* output : {"b_%01d.obj", "b.abc"}) {
     ASSERT_EQ(anicodec({"decode", folder / "a.anic", "-o", folder / output}).status, 0);
-    const MeshSequence back =
-        load_sequence(std::vector<std::string>{folder / (std::string(output) == "b.abc" ? "b.abc" : "b_*.obj")});
+    const MeshSequence back = load_sequence(
+        std::vector<std::string>{folder / (std::string(output) == "b.abc" ? "b.abc" : "b_*.obj")});
     const Attribute* moved = find_attribute(back, AttributeKind::kUv);
     ASSERT_TRUE(moved);
     ASSERT_EQ(moved->frames, 6U);

@@ -128,6 +128,28 @@ TEST(Layering, FindsSuitesInTheFilesOfOtherUnits) {
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("has Own,")));
 }
 
+TEST(Formatting, IsThatOfClangFormat) {
+  Outcome outcome = run_program(
+      {"python3", ANICODEC_SOURCE_DIR "/tests/scripts/check_format.py", ANICODEC_SOURCE_DIR});
+  if (outcome.status == 77)
+    GTEST_SKIP() << outcome.out;
+  EXPECT_EQ(outcome.status, 0) << outcome;
+}
+
+TEST(Formatting, NamesFilesThatDiffer) {
+  TemporaryFolder folder;
+  folder.write(".clang-format", "BasedOnStyle: Google\n");
+  folder.write("codec/attic/wide.cpp", "int  width ;\n");
+  folder.write("codec/attic/narrow.cpp", "int width;\n");
+  Outcome outcome =
+      run_program({"python3", ANICODEC_SOURCE_DIR "/tests/scripts/check_format.py", folder / ""});
+  if (outcome.status == 77)
+    GTEST_SKIP() << outcome.out;
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("codec/attic/wide.cpp is not formatted"));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("narrow")));
+}
+
 TEST(Documents, PointToWhatExists) {
   Outcome outcome = run_program(
       {"python3", ANICODEC_SOURCE_DIR "/tests/scripts/check_links.py", ANICODEC_SOURCE_DIR});

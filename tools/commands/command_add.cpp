@@ -64,7 +64,8 @@ Target target_of(const ClipHome& home) {
 
 bool has_target(const EncodeArguments& command) {
   return !command.kg.empty() || !command.max_error.empty() || !command.rmse.empty() ||
-         !command.displacement.empty() || !command.sted.empty() || command.quality || !command.size.empty() || !command.bpfv.empty();
+         !command.displacement.empty() || !command.sted.empty() || command.quality ||
+         !command.size.empty() || !command.bpfv.empty();
 }
 
 void check_agrees(const std::string& path, const ClipHome& home, MeshSequence* sequence) {
@@ -130,8 +131,11 @@ void add(EncodeArguments command, const CommonOptions& common) {
   write_file(target, best, in_place || common.overwrite);
   const uint64_t more = best.size() - bytes.size();
   if (common.json) {
-    print_json(
-        {{"file", target}, {"bytes", best.size()}, {"added", more}, {"shares_pose", shares_pose}, {"left_out", left_out}});
+    print_json({{"file", target},
+                {"bytes", best.size()},
+                {"added", more},
+                {"shares_pose", shares_pose},
+                {"left_out", left_out}});
   } else if (!common.quiet) {
     print_left_out(left_out);
     print_line("{}: {} bytes, {} more", target, grouped(best.size()), grouped(more));
@@ -161,7 +165,8 @@ void remove(const RemoveCommand& command, const CommonOptions& common) {
     print_json({{"file", target}, {"bytes", less.size()}, {"left_out", left_out}});
   } else if (!common.quiet) {
     print_left_out(left_out);
-    print_line("{}: {} bytes, {} less", target, grouped(less.size()), grouped(bytes.size() - less.size()));
+    print_line("{}: {} bytes, {} less", target, grouped(less.size()),
+               grouped(bytes.size() - less.size()));
   }
 }
 

@@ -289,8 +289,8 @@ void print_text(const ComparedClip& b, const Measured& m, int verbosity) {
     row("PSNR", std::isinf(c->psnr) ? "infinite" : fmt::format("{:.1f} dB", c->psnr));
     if (c->has_sted)
       row("STED", fmt::format("{:.4g}", c->sted.sted));
-    row("displacement error", fmt::format("{:.4g} ({:.4g} at most)", c->displacement_error,
-                                          c->max_displacement_error));
+    row("displacement error",
+        fmt::format("{:.4g} ({:.4g} at most)", c->displacement_error, c->max_displacement_error));
   }
   if (const auto& n = m.normals)
     row("normal error", fmt::format("{:.3g} degrees on average, {:.3g} at most", n->mean, n->max));

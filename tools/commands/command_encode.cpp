@@ -244,7 +244,8 @@ StillSurface split_surface(MeshSequence& sequence) {
   }
   std::erase_if(sequence.attributes, [](const Attribute& attribute) {
     const bool moves = attribute.frames > 1;
-    return !moves && (attribute.kind == AttributeKind::kUv || attribute.kind == AttributeKind::kColour);
+    return !moves &&
+           (attribute.kind == AttributeKind::kUv || attribute.kind == AttributeKind::kColour);
   });
   sequence.materials.looks.clear();
   return still;

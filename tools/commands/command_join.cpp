@@ -48,7 +48,10 @@ void run(const JoinCommand& command, const CommonOptions& common) {
   output.write({reinterpret_cast<const char*>(joined.data()), joined.size()});
   output.commit();
   if (common.json) {
-    print_json({{"file", command.output}, {"bytes", joined.size()}, {"parts", parts.size()}, {"left_out", left_out}});
+    print_json({{"file", command.output},
+                {"bytes", joined.size()},
+                {"parts", parts.size()},
+                {"left_out", left_out}});
   } else if (!common.quiet) {
     for (const std::string& line : left_out)
       print_line(stderr, "anicodec: {}", line);

@@ -26,11 +26,11 @@ Exit status:
 'anicodec COMMAND --help' explains a command.)";
 
 void declare_commands(Commands& commands, CommonOptions& common) {
-  for (auto add :
-       {add_encode, add_decode, add_join, add_add, add_remove, add_info, add_verify, add_compare,
-        add_analyze, add_interpolate, add_massage, add_massage_fit, add_massage_transfer,
-        add_massage_map, add_massage_remesh, add_dump, add_render, add_export_vat, add_corpus,
-        add_usd_plugin})
+  for (auto add : {add_encode,           add_decode,      add_join,           add_add,
+                   add_remove,           add_info,        add_verify,         add_compare,
+                   add_analyze,          add_interpolate, add_massage,        add_massage_fit,
+                   add_massage_transfer, add_massage_map, add_massage_remesh, add_dump,
+                   add_render,           add_export_vat,  add_corpus,         add_usd_plugin})
     add(commands, common);
 }
 

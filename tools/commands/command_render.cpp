@@ -57,7 +57,7 @@ enum class View : uint8_t { kClip, kOriginal, kError };
 
 struct RenderCommand {
   std::string input, against, clip, mesh, output, frames, views, resolution = "480x480", camera,
-                                                           error_range;
+                                                                 error_range;
   UpAxis up = UpAxis::kUnknown;
   bool turntable = false;
 };
@@ -277,13 +277,11 @@ void write_animation(const std::string& path, bool overwrite, Drawing& drawing,
 
 /// A page that plays the clip, and the original beside it.
 void write_page(const RenderCommand& command, const CommonOptions& common) {
-  const std::pair<bool, const char*> others[] = {{!command.mesh.empty(), "--mesh"},
-                                                 {!command.clip.empty(), "--clip"},
-                                                 {!command.frames.empty(), "--frames"},
-                                                 {!command.views.empty(), "--view"},
-                                                 {!command.camera.empty(), "--camera"},
-                                                 {!command.error_range.empty(), "--error-range"},
-                                                 {command.turntable, "--turntable"}};
+  const std::pair<bool, const char*> others[] = {
+      {!command.mesh.empty(), "--mesh"},     {!command.clip.empty(), "--clip"},
+      {!command.frames.empty(), "--frames"}, {!command.views.empty(), "--view"},
+      {!command.camera.empty(), "--camera"}, {!command.error_range.empty(), "--error-range"},
+      {command.turntable, "--turntable"}};
   for (const auto& [given, name] : others) {
     if (given)
       throw Error(ErrorKind::kUsage, fmt::format("{}: is for pictures, not for .html", name));
@@ -361,8 +359,9 @@ void add_render(Commands& commands, CommonOptions& common) {
               "frame_%04d.png, x.png, clip.gif, clip.mp4 or clip.html")
       .required();
   options.option("--against", c->against, "ORIGINAL", "The original");
-  options.option("--clip", c->clip, "NAME",
-                 "Clip of an .anic file with several, or animation of a scene; of the original too");
+  options.option(
+      "--clip", c->clip, "NAME",
+      "Clip of an .anic file with several, or animation of a scene; of the original too");
   options.option("--mesh", c->mesh, "FILE",
                  "Mesh of a vertex cache (default: same stem beside it)");
   options.option("--frames", c->frames, "A:B[:STEP]",

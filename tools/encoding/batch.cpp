@@ -98,7 +98,8 @@ class Journal {
     std::FILE* file = std::fopen(path_.c_str(), "a");
     // The line of a run that was killed may have no end.
     const std::string line = (torn_ ? "\n" : "") + hashes + " " + name + "\n";
-    bool ok = file && std::fputs(line.c_str(), file) >= 0 && std::fflush(file) == 0 && synchronize(::fileno(file));
+    bool ok = file && std::fputs(line.c_str(), file) >= 0 && std::fflush(file) == 0 &&
+              synchronize(::fileno(file));
     if (file)
       ok &= std::fclose(file) == 0;
     if (!is_named_)
@@ -187,13 +188,12 @@ class Batch {
     const unsigned jobs = std::min<unsigned>(options_.jobs, static_cast<unsigned>(clips_.size()));
     const unsigned all = std::max(1U, std::thread::hardware_concurrency());
     for (unsigned i = 0; i < jobs; ++i) {
-      workers.push_back(
-          std::async(std::launch::async, [this, threads = std::max(1U, all / jobs)] {
-            with_threads(threads, [this] {
-              for (size_t clip = next_++; clip < clips_.size(); clip = next_++)
-                run_clip(clip);
-            });
-          }));
+      workers.push_back(std::async(std::launch::async, [this, threads = std::max(1U, all / jobs)] {
+        with_threads(threads, [this] {
+          for (size_t clip = next_++; clip < clips_.size(); clip = next_++)
+            run_clip(clip);
+        });
+      }));
     }
     for (std::future<void>& worker : workers)
       worker.get();
@@ -267,7 +267,9 @@ class Batch {
     MeshSequence sequence = load_(clip, [&](const std::string& text) { notes.push_back(text); });
     const uint64_t bytes = sequence.positions.size() * sizeof(float);
     const EncodingMemory needs = EncodingMemory::of(sequence, {});
-    const Taken memory(budget_, static_cast<uint64_t>(needs.kept({}) + static_cast<double>(thread_count()) * needs.thread({})));
+    const Taken memory(
+        budget_, static_cast<uint64_t>(needs.kept({}) +
+                                       static_cast<double>(thread_count()) * needs.thread({})));
     reading.unlock();
 
     ContentHash hash;

@@ -109,8 +109,8 @@ nlohmann::ordered_json EncodeReport::json() const {
 void EncodeReport::print_clips(int verbosity) const {
   uint32_t first = 0;
   for (const ClipResult& clip : result.clips) {
-    print_line("  clip \"{}\": {} at {:.6g} fps ({}), max error {:.4g} ({:.3g} %), KG {:.3g} %", clip.name,
-               counted(clip.frames, "frame"), clip.rate.value(), origin_of(clip.rate),
+    print_line("  clip \"{}\": {} at {:.6g} fps ({}), max error {:.4g} ({:.3g} %), KG {:.3g} %",
+               clip.name, counted(clip.frames, "frame"), clip.rate.value(), origin_of(clip.rate),
                clip.max_error, percent(clip.max_error, clip.diagonal), clip.kg);
     for (const FrameRun& segment : result.segments) {
       if (verbosity == 0 || segment.first + segment.count <= first ||
@@ -131,8 +131,8 @@ void EncodeReport::print_text(int verbosity) const {
     for (const Trial& trial : result.trials)
       width = std::max(width, trial.what.size());
     for (const Trial& trial : result.trials)
-      fmt::print("  tried {:<{}} {:>12} bytes  RMSE {:<11.4g} max error {:.4g}\n", trial.what, width,
-                 grouped(trial.bytes), trial.rmse, trial.max_error);
+      fmt::print("  tried {:<{}} {:>12} bytes  RMSE {:<11.4g} max error {:.4g}\n", trial.what,
+                 width, grouped(trial.bytes), trial.rmse, trial.max_error);
     for (const std::string& note : result.search_notes)
       print_line("  {}", note);
   }

@@ -5,8 +5,8 @@
 #include "codec/sequence/error.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/mesh.h"
-#include "tools/io/base/printable.h"
 #include "tools/io/base/package_hint.h"
+#include "tools/io/base/printable.h"
 #include "tools/io/files/byte_source.h"
 #include "tools/io/files/natural_order.h"
 

@@ -144,9 +144,8 @@ void set_events(const std::vector<std::string>& events, MeshSequence& sequence) 
       sequence.events = std::move(clip.events);
       continue;
     }
-    const auto clip = std::ranges::find_if(sequence.clips, [&](const ClipTiming& c) {
-      return event.name.starts_with(c.name + ":");
-    });
+    const auto clip = std::ranges::find_if(
+        sequence.clips, [&](const ClipTiming& c) { return event.name.starts_with(c.name + ":"); });
     if (clip == sequence.clips.end())
       throw Error(ErrorKind::kUsage,
                   "--event: '" + text + "' names no clip; of several it is CLIP:NAME=SECONDS");
@@ -170,8 +169,8 @@ void add_target(Options& options, EncodeArguments& a) {
   options.option("--bpfv", a.bpfv, "BITS", "The same, as bits per frame and vertex");
   options.flag("--lossless", a.lossless,
                "The positions come back bit for bit; the file is several times as large");
-  options.exclude(
-      {"--kg", "--rmse", "--displacement", "--sted", "--quality", "--size", "--bpfv", "--lossless"});
+  options.exclude({"--kg", "--rmse", "--displacement", "--sted", "--quality", "--size", "--bpfv",
+                   "--lossless"});
   options.exclude({"--max-error", "--lossless"});
 }
 
@@ -200,8 +199,9 @@ void add_method(Options& options, EncodeArguments& a) {
                "Store each object of the input as a mesh, present only in the frames that show it "
                "(default: as parts of one mesh)");
   options.choice("--effort", a.effort, {kEfforts}, "How long to search (default normal)");
-  options.flag("--smallest", a.smallest,
-               "Make the file as small as can be, however long it takes to open (default: a balance)");
+  options.flag(
+      "--smallest", a.smallest,
+      "Make the file as small as can be, however long it takes to open (default: a balance)");
 }
 
 void add_massage_options(Options& options, EncodeArguments& a) {
@@ -269,7 +269,8 @@ std::string metadata_of(const EncodeArguments& command) {
     if (is_metadata(view_of(text)))
       object = nlohmann::ordered_json::parse(text, nullptr, false);
     if (!is_metadata(view_of(text)) || !object.is_object())
-      throw Error(ErrorKind::kInput, command.metadata_file + ": is not a JSON object in UTF-8 of at most 2^20 bytes");
+      throw Error(ErrorKind::kInput,
+                  command.metadata_file + ": is not a JSON object in UTF-8 of at most 2^20 bytes");
   }
   for (const std::string& entry : command.metadata) {
     const size_t equals = entry.find('=');
@@ -307,10 +308,11 @@ void add_arguments(Options& options, EncodeArguments& a) {
   options.option("--part", a.part, "A:B", "Encode only frames A to B - 1, as a part for join");
   options.option("--batch", a.batch, "DIR|LIST",
                  "Encode all clips in a folder, or in a list with a clip per line");
-  options.option(
-      "--memory", a.memory, "BYTES",
-      "For a run, or all clips of --batch (default: half of the machine): frames beyond a third of it lie in files in "
-      "TMPDIR or /var/tmp; fewer threads work where it is short; what takes more is refused, or runs alone");
+  options.option("--memory", a.memory, "BYTES",
+                 "For a run, or all clips of --batch (default: half of the machine): frames beyond "
+                 "a third of it lie in files in "
+                 "TMPDIR or /var/tmp; fewer threads work where it is short; what takes more is "
+                 "refused, or runs alone");
   options.flag("--allow-outside", a.allow_outside,
                "Let a scene name files outside its folder: those of strangers then choose what is "
                "read");
@@ -318,13 +320,17 @@ void add_arguments(Options& options, EncodeArguments& a) {
                  "Point that positions are kept from, as float32 has few digits for a small mesh "
                  "far from zero; decode adds it "
                  "(default auto: amid such a mesh, else none)");
-  options.flag("--no-weld", a.no_weld, "Take every corner of STL files as a vertex: corners at one place may part later");
+  options.flag("--no-weld", a.no_weld,
+               "Take every corner of STL files as a vertex: corners at one place may part later");
   options.flag("--live", a.live,
-               "INPUT is a mesh, its frames come from the standard input: float32 x, y, z of each vertex, little-endian");
-  options.number("--piece", a.piece, "SECONDS", {0.001, 3600}, "Of --live, what is encoded at a time (default 1)");
+               "INPUT is a mesh, its frames come from the standard input: float32 x, y, z of each "
+               "vertex, little-endian");
+  options.number("--piece", a.piece, "SECONDS", {0.001, 3600},
+                 "Of --live, what is encoded at a time (default 1)");
   options.number("--key-every", a.key_every, "SECONDS", {0, 1e6},
                  "Of --live, a piece that does without those before it (default 4; 0: every one)");
-  options.option("--box", a.box, "LEN", "Of --live, the diagonal that percentages are of (default: the first piece's)");
+  options.option("--box", a.box, "LEN",
+                 "Of --live, the diagonal that percentages are of (default: the first piece's)");
   add_target(options, a);
   add_method(options, a);
   add_massage_options(options, a);
@@ -332,17 +338,20 @@ void add_arguments(Options& options, EncodeArguments& a) {
   add_metadata(options, a);
   options.watch([&a](const Option& option, const std::string& value) {
     const std::string name = option.long_name();
-    if (!option.is_argument() && option.group != kGeneralGroup && name != "--output" && name != "--batch" && name != "--memory")
+    if (!option.is_argument() && option.group != kGeneralGroup && name != "--output" &&
+        name != "--batch" && name != "--memory")
       a.given.push_back(name + "=" + value);
   });
 }
 
 void add_clip_arguments(Options& options, EncodeArguments& a) {
-  options.arguments("FILE INPUT", a.inputs, "The file, then mesh and vertex cache, frames, or a scene");
+  options.arguments("FILE INPUT", a.inputs,
+                    "The file, then mesh and vertex cache, frames, or a scene");
   options.option("-o,--output", a.output, "FILE", "The .anic file to write (default: FILE itself)");
   options.option("--mesh", a.mesh, "FILE|NAME", "Mesh of a lone vertex cache, or one of a scene");
   options.option("--clip", a.clip, "NAME|INDEX", "Animation of a scene");
-  options.option("--name", a.names, "NAME", "Name of the clip (default: of the cache or animation)");
+  options.option("--name", a.names, "NAME",
+                 "Name of the clip (default: of the cache or animation)");
   add_target(options, a);
   options.group("Method");
   options.choice("--basis", a.basis, {kBases}, "Kind of basis (default auto: the smallest file)");
@@ -421,12 +430,14 @@ EncodeOptions encode_options(const EncodeArguments& command) {
     options.basis = BasisChoice::kKeyframes;
   }
   options.select = command.selection;
-  const bool fits = options.basis == BasisChoice::kKeyframes ||
-                    (options.basis == BasisChoice::kAuto && command.interpolation != InterpolationChoice::kMsgi);
+  const bool fits =
+      options.basis == BasisChoice::kKeyframes ||
+      (options.basis == BasisChoice::kAuto && command.interpolation != InterpolationChoice::kMsgi);
   if (command.interpolation && !fits)
-    throw Error(ErrorKind::kUsage, command.interpolation == InterpolationChoice::kMsgi
-                                       ? "--interpolation msgi goes with --basis keyframes or --keyframes"
-                                       : "--interpolation goes with --basis auto or keyframes");
+    throw Error(ErrorKind::kUsage,
+                command.interpolation == InterpolationChoice::kMsgi
+                    ? "--interpolation msgi goes with --basis keyframes or --keyframes"
+                    : "--interpolation goes with --basis auto or keyframes");
   options.interpolation = command.interpolation;
   if (command.keyframe_coder != KeyframePoses::kNative && options.basis != BasisChoice::kKeyframes)
     throw Error(ErrorKind::kUsage, "--keyframe-coder goes with --basis keyframes or --keyframes");
@@ -443,7 +454,8 @@ EncodeOptions encode_options(const EncodeArguments& command) {
   options.metadata = metadata_of(command);
   options.effort = command.effort;
   options.smallest = command.smallest;
-  options.most_bytes = command.memory.empty() ? half_of_machine() : parse_size(command.memory, "--memory");
+  options.most_bytes =
+      command.memory.empty() ? half_of_machine() : parse_size(command.memory, "--memory");
   options.encoder = fmt::format("anicodec {}", version());
   set_target(command, std::nullopt, options);
   return options;

@@ -30,7 +30,8 @@ enum class OrderChoice { kAuto, kVertices, kFree, kAll };
 /// Targets that have a name.
 enum class Quality : uint8_t { kGood, kBetter, kBest };
 
-inline constexpr Word<Effort> kEfforts[] = {{Effort::kFast, "fast"}, {Effort::kNormal, "normal"}, {Effort::kBest, "best"}};
+inline constexpr Word<Effort> kEfforts[] = {
+    {Effort::kFast, "fast"}, {Effort::kNormal, "normal"}, {Effort::kBest, "best"}};
 
 /// The arguments of encode on the command line.
 struct EncodeArguments {
@@ -59,8 +60,9 @@ struct EncodeArguments {
   double piece = 1;                 ///< of a live stream, seconds
   double key_every = kKeyEvery;     ///< the same
   std::string box;                  ///< of a live stream: the diagonal that percentages are of
-  std::vector<std::string> events;    ///< [CLIP:]NAME=SECONDS
-  std::vector<std::string> given;     ///< "--option=value" for all that an output depends on beside its clip
+  std::vector<std::string> events;  ///< [CLIP:]NAME=SECONDS
+  std::vector<std::string>
+      given;  ///< "--option=value" for all that an output depends on beside its clip
   std::vector<std::string> metadata;  ///< KEY=VALUE
   std::string metadata_file;          ///< a JSON object
   bool root_motion = false;
@@ -70,7 +72,7 @@ struct EncodeArguments {
   bool no_attributes = false;
   AttributeOptions attributes;
   std::string attribute_error, normal_error;
-  std::string fields;                     ///< names of the numbers that are kept, "none"; empty: all
+  std::string fields;  ///< names of the numbers that are kept, "none"; empty: all
   std::vector<std::string> field_errors;  ///< NAME=X[%]|exact
   std::vector<std::string> field_units;   ///< NAME=TEXT
   /// Told what of the input is left out; may be empty.

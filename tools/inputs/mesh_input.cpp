@@ -21,7 +21,9 @@ bool goes_with_shape(const Attribute& attribute) {
 }
 
 size_t polygon_of(const Polygons& polygons, uint32_t corner) {
-  return static_cast<size_t>(std::ranges::upper_bound(polygons.offsets, corner) - polygons.offsets.begin()) - 1;
+  return static_cast<size_t>(std::ranges::upper_bound(polygons.offsets, corner) -
+                             polygons.offsets.begin()) -
+         1;
 }
 
 /// An attribute of a surface at points of it.

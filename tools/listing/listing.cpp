@@ -87,14 +87,15 @@ void list_clip(FieldReader& r, const std::string& clip, uint32_t frames) {
   r.varint(clip + "rate numerator");
   r.varint(clip + "rate denominator");
   uint8_t flags = r.u8(clip + "flags");
-  constexpr const char* kFlags[] = {"rate assumed", "loop",  "closed",
-                                    "massaged",     "times", "attribute errors", "events"};
+  constexpr const char* kFlags[] = {"rate assumed",     "loop",  "closed", "massaged", "times",
+                                    "attribute errors", "events"};
   explain_flags(r, flags, kFlags);
   r.f64(clip + "start time");
   for (uint32_t f = 0; (flags & kTimes) && f < frames && r.ok(); ++f)
     r.f64(fmt::format("{}time of frame {}", clip, f));
   r.explain(name_of(static_cast<ErrorMetric>(r.u8(clip + "asked"))));
-  for (const char* name : {"asked value", "max error", "RMSE", "KG", "max displacement error", "diagonal"})
+  for (const char* name :
+       {"asked value", "max error", "RMSE", "KG", "max displacement error", "diagonal"})
     r.f64(clip + name);
   if (flags & kMassaged) {
     r.f64(clip + "surface error");
@@ -130,7 +131,10 @@ void list_root(FieldReader& r, size_t clips) {
   for (size_t c = 0; c < clips && r.ok(); ++c) {
     const std::string clip = clips > 1 ? fmt::format("clip {} ", c) : "";
     const uint8_t holds = r.u8(clip + "holds");
-    r.explain(holds == 0 ? "nothing" : holds == 1 ? "moves" : holds == 2 ? "turns" : "moves, turns");
+    r.explain(holds == 0   ? "nothing"
+              : holds == 1 ? "moves"
+              : holds == 2 ? "turns"
+                           : "moves, turns");
     if (holds == 0)
       continue;
     r.f64(clip + "pivot a");
@@ -326,7 +330,8 @@ std::vector<uint32_t> attribute_counts(ByteView file, const std::vector<Chunk>& 
   for (const Chunk& chunk : chunks) {
     if (chunk.type == chunk_type("LIMI") && chunk.offset <= file.size &&
         chunk.size <= file.size - chunk.offset &&
-        Limits::read({file.data + chunk.offset, static_cast<size_t>(chunk.size)}, &limits) == Status::kOk) {
+        Limits::read({file.data + chunk.offset, static_cast<size_t>(chunk.size)}, &limits) ==
+            Status::kOk) {
       for (const Limits::Mesh& mesh : limits.meshes)
         counts.push_back(mesh.attributes);
       break;
@@ -353,8 +358,8 @@ std::vector<ListedField> list_fields(ByteView file) {
       break;
     size_t begin = out.size();
     const ByteView payload{file.data + chunk.offset, static_cast<size_t>(chunk.size)};
-    list_payload(chunk, payload, frames, chunk.mesh < attributes.size() ? attributes[chunk.mesh] : 0,
-                 out);
+    list_payload(chunk, payload, frames,
+                 chunk.mesh < attributes.size() ? attributes[chunk.mesh] : 0, out);
     for (size_t i = begin; i < out.size(); ++i)
       out[i].name = chunk_name(chunk.type) + " " + out[i].name;
     at = chunk.offset + chunk.size;

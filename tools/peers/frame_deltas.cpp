@@ -71,8 +71,9 @@ void append_frames(const GriddedClip& clip, const Order& order, bool folded, Buf
         before[3 * i + c] = value;
       }
     }
-    size_t size = meshopt_encodeVertexBufferLevel(buffer.data(), buffer.size(), deltas.data(),
-                                                  count, kWidth * sizeof(Value), kLevelOfMeshopt, kVersion);
+    size_t size =
+        meshopt_encodeVertexBufferLevel(buffer.data(), buffer.size(), deltas.data(), count,
+                                        kWidth * sizeof(Value), kLevelOfMeshopt, kVersion);
     out.insert(out.end(), buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(size));
   }
 }

@@ -146,8 +146,8 @@ void parse_and_run(const Program& program, CommonOptions& common, std::vector<st
     std::string names;
     for (const Command& command : commands)
       names += (names.empty() ? "" : ", ") + std::string(command.help.name);
-    throw Error(ErrorKind::kUsage, fmt::format("a command is missing: one of {}; see {} --help",
-                                               names, program.name));
+    throw Error(ErrorKind::kUsage,
+                fmt::format("a command is missing: one of {}; see {} --help", names, program.name));
   }
   if (begins_with(words, {"help", "-h", "--help"})) {
     run_help(program, commands, {words.begin() + 1, words.end()});

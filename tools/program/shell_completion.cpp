@@ -129,8 +129,8 @@ std::string zsh_argument(const Option& option) {
   for (const std::string& name : names)
     rows += fmt::format(
         "      {}{}{}{} \\\n",
-        option.repeats ? "'*'" : in_quotes("(" + fmt::format("{}", fmt::join(names, " ")) + ")"), name,
-        in_quotes("[") + in_quotes(option.text, kSpecial) + in_quotes("]"), value);
+        option.repeats ? "'*'" : in_quotes("(" + fmt::format("{}", fmt::join(names, " ")) + ")"),
+        name, in_quotes("[") + in_quotes(option.text, kSpecial) + in_quotes("]"), value);
   return rows;
 }
 
@@ -184,8 +184,8 @@ std::string fish(const Program& program, const Commands& commands) {
   std::string script = fmt::format("# Completion of {} for fish.\n", program.name);
   const std::string start = fmt::format("complete -c {}", program.name);
   const auto add_word = [&](const std::string& name, const std::string& text) {
-    script +=
-        fmt::format("{} -n __fish_use_subcommand -a {} -d {}\n", start, in_quotes(name), in_quotes(text));
+    script += fmt::format("{} -n __fish_use_subcommand -a {} -d {}\n", start, in_quotes(name),
+                          in_quotes(text));
   };
   for (const ProgramWord& word : kProgramWords)
     add_word(word.name, word.text);

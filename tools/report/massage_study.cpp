@@ -35,8 +35,8 @@ uint64_t size_at(const MeshSequence& sequence, double kg, Effort effort, const P
 
 }  // namespace
 
-MassageStudy study_massage(const MeshSequence& sequence, std::span<const size_t> counts, Effort effort,
-                           const Progress& progress) {
+MassageStudy study_massage(const MeshSequence& sequence, std::span<const size_t> counts,
+                           Effort effort, const Progress& progress) {
   MassageStudy study;
   const MeshSequence massaged = massage(sequence, {}, progress).sequence;
   const std::vector<double> original_errors = component_errors(sequence);

@@ -43,8 +43,8 @@ struct MassageStudy {
 };
 
 /// Cost: a massage and four encodings at this effort.
-MassageStudy study_massage(const MeshSequence& sequence, std::span<const size_t> counts, Effort effort,
-                           const Progress& progress);
+MassageStudy study_massage(const MeshSequence& sequence, std::span<const size_t> counts,
+                           Effort effort, const Progress& progress);
 
 nlohmann::ordered_json massage_json(const MassageStudy& study);
 

@@ -218,7 +218,8 @@ std::string report_page(const Report& report) {
     }
   }
   if (report.basis_errors.empty()) {
-    out += "<p>Other codecs, key-frames and shape spaces: <code>anicodec analyze --full</code>.</p>";
+    out +=
+        "<p>Other codecs, key-frames and shape spaces: <code>anicodec analyze --full</code>.</p>";
   } else {
     out += keyframe_section(report);
   }

@@ -69,7 +69,7 @@ struct Report {
 
 struct ReportOptions {
   Effort effort = Effort::kFast;
-  bool full = false;  ///< other codecs, key-frames and shape spaces, too
+  bool full = false;           ///< other codecs, key-frames and shape spaces, too
   std::vector<size_t> counts;  ///< of key-frames and components
   Progress progress;
 };

@@ -30,11 +30,14 @@ inline constexpr Word<Reconstruction> kReconstructions[] = {{Reconstruction::kLi
 inline constexpr Word<OrderMode> kOrderModes[] = {
     {OrderMode::kVertices, "vertices"}, {OrderMode::kFree, "free"}, {OrderMode::kAll, "all"}};
 
-inline constexpr Word<ErrorMetric> kErrorMetrics[] = {
-    {ErrorMetric::kNone, "none"},          {ErrorMetric::kKg, "kg"},
-    {ErrorMetric::kMaxError, "max_error"}, {ErrorMetric::kRmse, "rmse"},
-    {ErrorMetric::kDisplacement, "displacement"}, {ErrorMetric::kSted, "sted"},
-    {ErrorMetric::kSize, "size"},          {ErrorMetric::kBpfv, "bpfv"}};
+inline constexpr Word<ErrorMetric> kErrorMetrics[] = {{ErrorMetric::kNone, "none"},
+                                                      {ErrorMetric::kKg, "kg"},
+                                                      {ErrorMetric::kMaxError, "max_error"},
+                                                      {ErrorMetric::kRmse, "rmse"},
+                                                      {ErrorMetric::kDisplacement, "displacement"},
+                                                      {ErrorMetric::kSted, "sted"},
+                                                      {ErrorMetric::kSize, "size"},
+                                                      {ErrorMetric::kBpfv, "bpfv"}};
 
 inline constexpr Word<AttributeKind> kAttributeKinds[] = {
     {AttributeKind::kUv, "uv"},           {AttributeKind::kNormal, "normal"},

@@ -288,8 +288,7 @@ class Asset {
     const std::lock_guard<std::mutex> lock(mutex_);
     seek(clip, seconds, sampling, wrap);
     blend(other, other_seconds, sampling, other_wrap, weight);
-    check_status(
-        anic_get_surface_frame(context_.get(), mesh, ANIC_WHEN_CURRENT, &point, &frame));
+    check_status(anic_get_surface_frame(context_.get(), mesh, ANIC_WHEN_CURRENT, &point, &frame));
     std::vector<float> result(frame.position, frame.position + 3);
     result.insert(result.end(), frame.normal, frame.normal + 3);
     result.insert(result.end(), frame.tangent, frame.tangent + 3);
@@ -323,7 +322,8 @@ class Asset {
     if (hit.triangle == UINT32_MAX)
       return std::nullopt;
     const float* w = hit.point.weights;
-    return std::tuple(hit.triangle, hit.distance, std::array<float, 3>{w[0], w[1], w[2]}, int{hit.side});
+    return std::tuple(hit.triangle, hit.distance, std::array<float, 3>{w[0], w[1], w[2]},
+                      int{hit.side});
   }
 
   NormalPlan* normal_plan(uint32_t mesh, double crease, uint32_t frame, bool per_corner,

@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Measures, interpolation and massage.
+#include "bindings/python/binding/binding.h"
 #include "codec/massage/massage.h"
 #include "codec/metrics/hausdorff.h"
 #include "codec/metrics/metrics.h"
-#include "bindings/python/binding/binding.h"
 
 #include <cstddef>
 #include <memory>

@@ -146,7 +146,8 @@ EXPORT(read_metadata) int web_read_metadata(const void* file, uint32_t size) {
 /* A box of a file that is not opened. numbers: least, greatest. */
 EXPORT(read_bounds)
 
-int web_read_bounds(const void* file, uint32_t size, uint32_t mesh, uint32_t first, uint32_t count) {
+int web_read_bounds(const void* file, uint32_t size, uint32_t mesh, uint32_t first,
+                    uint32_t count) {
   anic_box box = {{0}, {0}};
   return give_box(anic_read_bounds(file, size, mesh, first, count, &box), &box);
 }
@@ -300,6 +301,7 @@ static int give_motion(anic_status status, const anic_root_motion* motion) {
 }
 
 EXPORT(root_motion)
+
 int web_root_motion(uint32_t clip, double seconds, int sampling, int wrap) {
   anic_root_motion motion = ANIC_INIT(anic_root_motion);
   const anic_status status = anic_get_root_motion(asset, clip, seconds, sampling, wrap, &motion);
@@ -307,6 +309,7 @@ int web_root_motion(uint32_t clip, double seconds, int sampling, int wrap) {
 }
 
 EXPORT(root_step)
+
 int web_root_step(uint32_t clip, double from, double to, int sampling, int wrap) {
   anic_root_motion motion = ANIC_INIT(anic_root_motion);
   const anic_status status = anic_get_root_step(asset, clip, from, to, sampling, wrap, &motion);
@@ -440,8 +443,7 @@ EXPORT(surface_frame)
 
 int web_surface_frame(const anic_context* context, uint32_t mesh, uint32_t a, uint32_t b,
                       uint32_t c, double weight_a, double weight_b, double weight_c) {
-  const anic_surface_point point = {{a, b, c},
-                                    {(float)weight_a, (float)weight_b, (float)weight_c}};
+  const anic_surface_point point = {{a, b, c}, {(float)weight_a, (float)weight_b, (float)weight_c}};
   anic_surface_frame frame = {{0}, {0}, {0}};
   const anic_status status =
       anic_get_surface_frame(context, mesh, ANIC_WHEN_CURRENT, &point, &frame);

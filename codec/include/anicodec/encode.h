@@ -39,8 +39,8 @@
 #include <anicodec/anicodec.h>
 
 #ifndef __cplusplus
-typedef int32_t anic_scalar, anic_bound, anic_goal, anic_basis_choice, anic_selection, anic_interpolation,
-    anic_keyframe_coder, anic_massage, anic_effort;
+typedef int32_t anic_scalar, anic_bound, anic_goal, anic_basis_choice, anic_selection,
+    anic_interpolation, anic_keyframe_coder, anic_massage, anic_effort;
 #endif
 
 #ifdef __cplusplus
@@ -70,8 +70,8 @@ ANIC_API const char* anic_get_encoder_text(const anic_encoder* encoder);
 /** A clip: what all meshes share. Spec: 04. */
 typedef struct anic_source_clip {
   size_t struct_size;
-  const char* name; /**< UTF-8; NULL: none */
-  uint32_t frame_count; /**< 0: a live clip, whose frames are pushed: anic_begin_live() */
+  const char* name;          /**< UTF-8; NULL: none */
+  uint32_t frame_count;      /**< 0: a live clip, whose frames are pushed: anic_begin_live() */
   uint32_t rate_numerator;   /**< frames per second = numerator / denominator. 0: nobody knows; 24
                                 is stored, and that it is assumed */
   uint32_t rate_denominator; /**< 0 counts as 1 */
@@ -159,11 +159,14 @@ ANIC_API anic_status anic_add_source_mesh(anic_encoder* encoder, const anic_sour
 
 /** The largest error of the numbers of an attribute. */
 enum anic_bound ANIC_INT32 {
-  ANIC_BOUND_USUAL = 0,   /**< of one that moves attribute_error of anic_encode_options; one that rests has steps of
+  ANIC_BOUND_USUAL =
+      0, /**< of one that moves attribute_error of anic_encode_options; one that rests has steps of
                                uv_bits, of colour_bits, or of a 4095th of its range */
-  ANIC_BOUND_UNITS = 1,   /**< `error`, in units of its values */
-  ANIC_BOUND_PERCENT = 2, /**< `error`, in per cent of its range: of the component with the largest, over all frames */
-  ANIC_BOUND_EXACT = 3    /**< none once values are rounded: they are whole, up to 2^24, up to 2^18 of one that moves. The
+  ANIC_BOUND_UNITS = 1, /**< `error`, in units of its values */
+  ANIC_BOUND_PERCENT =
+      2, /**< `error`, in per cent of its range: of the component with the largest, over all frames */
+  ANIC_BOUND_EXACT =
+      3 /**< none once values are rounded: they are whole, up to 2^24, up to 2^18 of one that moves. The
                                metadata's "fields" say "whole": true of its name */
 };
 
@@ -186,9 +189,10 @@ typedef struct anic_source_attribute {
   /** Looks of ANIC_ATTRIBUTE_MATERIAL: label_count pointers, NULL where one is unknown; NULL: all are.
    * Their names do not matter, NULL is no texture. */
   const anic_material* const* materials;
-  const char* unit;  /**< UTF-8, of the values, as "K"; NULL: none. Kept in the metadata: its object "fields"
+  const char*
+      unit; /**< UTF-8, of the values, as "K"; NULL: none. Kept in the metadata: its object "fields"
                           has an object for the name, and that a text "unit" */
-  double error;      /**< in what `bound` says */
+  double error; /**< in what `bound` says */
   anic_bound bound;
 } anic_source_attribute;
 
@@ -204,12 +208,12 @@ ANIC_API anic_status anic_add_source_attribute(anic_encoder* encoder, uint32_t m
 
 /** The promise that the file keeps. Spec: 04, section 4. */
 enum anic_goal ANIC_INT32 {
-  ANIC_GOAL_DEFAULT = 0,   /**< with `keyframes` none, else a largest error of 0.05 % */
-  ANIC_GOAL_MAX_ERROR = 1, /**< largest distance of any vertex of any frame from its place */
-  ANIC_GOAL_KG = 2,        /**< KG error in per cent */
-  ANIC_GOAL_RMSE = 3,      /**< root of the mean squared error */
-  ANIC_GOAL_SIZE = 4,      /**< bytes, with the smallest error; of one mesh alone */
-  ANIC_GOAL_BPFV = 5,      /**< bits per frame and vertex, with the smallest error */
+  ANIC_GOAL_DEFAULT = 0,      /**< with `keyframes` none, else a largest error of 0.05 % */
+  ANIC_GOAL_MAX_ERROR = 1,    /**< largest distance of any vertex of any frame from its place */
+  ANIC_GOAL_KG = 2,           /**< KG error in per cent */
+  ANIC_GOAL_RMSE = 3,         /**< root of the mean squared error */
+  ANIC_GOAL_SIZE = 4,         /**< bytes, with the smallest error; of one mesh alone */
+  ANIC_GOAL_BPFV = 5,         /**< bits per frame and vertex, with the smallest error */
   ANIC_GOAL_DISPLACEMENT = 6, /**< largest error of any vertex's move from frame to frame */
   ANIC_GOAL_STED = 7          /**< STED, an error as viewers see it; of every mesh and clip */
 };
@@ -231,10 +235,12 @@ enum anic_selection ANIC_INT32 {
 
 /** How frames come from key-frames. */
 enum anic_interpolation ANIC_INT32 {
-  ANIC_INTERPOLATE_USUAL = 0, /**< between key-frames that were asked for linear; else best, where a file by
+  ANIC_INTERPOLATE_USUAL =
+      0, /**< between key-frames that were asked for linear; else best, where a file by
                                    geometry interpolation is a tenth smaller */
   ANIC_INTERPOLATE_LINEAR = 1, /**< any decoder plays the file */
-  ANIC_INTERPOLATE_MSGI = 2,   /**< geometry interpolation, which decoders may lack: of key-frames alone */
+  ANIC_INTERPOLATE_MSGI =
+      2, /**< geometry interpolation, which decoders may lack: of key-frames alone */
   ANIC_INTERPOLATE_BEST = 3
 };
 
@@ -270,7 +276,7 @@ enum {
                                       anic_root_motion */
   ANIC_ENCODE_LOSSLESS = 32,     /**< the positions come back bit for bit; instead of a goal, of
                                       max_error and of massage */
-  ANIC_ENCODE_SMALLEST = 64      /**< the smallest file that the search finds, however long it takes to
+  ANIC_ENCODE_SMALLEST = 64 /**< the smallest file that the search finds, however long it takes to
                                       open; else bytes and the time of opening are in balance */
 };
 
@@ -310,13 +316,15 @@ typedef struct anic_encode_options {
   uint32_t colour_bits;     /**< of a component of a colour; 0 means 8 */
   double massage_strength;  /**< of shape against distance, between 0 and 1; 0 means 0.5 */
   double massage_tolerance; /**< how far the surface may move, units of the clip; 0: any */
-  double attribute_error;   /**< largest error of attributes that change and have no bound of their own; 0: half a step of
+  double
+      attribute_error; /**< largest error of attributes that change and have no bound of their own; 0: half a step of
                                colour_bits for colours, 0.1 % of their range for others */
-  double normal_error;      /**< degrees: normals and tangents of frame 0 as numbers that are not
+  double normal_error; /**< degrees: normals and tangents of frame 0 as numbers that are not
                                further off; 0: hard edges alone */
   anic_encode_progress progress;
   anic_writer writer; /**< gets the file instead of anic_encoding */
-  const char* metadata; /**< a JSON object in UTF-8 that the file keeps, at most 2^20 bytes; NULL: none */
+  const char*
+      metadata; /**< a JSON object in UTF-8 that the file keeps, at most 2^20 bytes; NULL: none */
 } anic_encode_options;
 
 /** The file, and what was measured of it by decoding it. Lengths are in units of the clip. */
@@ -359,11 +367,14 @@ typedef struct anic_live anic_live;
 typedef struct anic_live_options {
   size_t struct_size;
   double piece_seconds; /**< of a file; 0: 1 */
-  double key_seconds; /**< a file begins anew so many seconds after the last that did; whoever joins late, or
+  double
+      key_seconds; /**< a file begins anew so many seconds after the last that did; whoever joins late, or
                          has lost a file, goes on there. 0: 4; below 0: every file does */
-  double box; /**< diagonal that a goal in per cent is of, in units of the clip; 0: that of the first file's
+  double
+      box; /**< diagonal that a goal in per cent is of, in units of the clip; 0: that of the first file's
                  frames, which is smaller than the clip's */
-  uint64_t most_waiting_frames; /**< that wait for being encoded, at least those of a file; 0: any number,
+  uint64_t
+      most_waiting_frames; /**< that wait for being encoded, at least those of a file; 0: any number,
                                    whatever memory they take */
 } anic_live_options;
 
@@ -393,7 +404,8 @@ typedef struct anic_live_frame {
   ptrdiff_t vertex_stride; /**< bytes from a vertex to the next; 0: packed */
   anic_scalar scalar;      /**< of positions */
   uint32_t value_count;    /**< attributes that move: those without `values` */
-  const float* const* values; /**< of each of them, in the order in which they were added: elements x
+  const float* const*
+      values; /**< of each of them, in the order in which they were added: elements x
                                  components */
 } anic_live_frame;
 
@@ -403,7 +415,8 @@ typedef struct anic_live_frame {
  * - Errors: ANIC_E_LIMIT: there is no room, nothing was taken; ANIC_E_ARGUMENT: counts or pointers make no
  *   sense, a number is not finite, anic_end_live() was called: nothing was taken; what ended the encoding
  */
-ANIC_API anic_status anic_push_live_frame(anic_live* live, const anic_live_frame* frame, double wait);
+ANIC_API anic_status anic_push_live_frame(anic_live* live, const anic_live_frame* frame,
+                                          double wait);
 
 /** No frame follows: the last file gets those that are there. */
 ANIC_API anic_status anic_end_live(anic_live* live);
@@ -420,8 +433,9 @@ typedef struct anic_live_piece {
   double rmse;
   double kg; /**< per cent */
   uint32_t frame_count;
-  uint8_t key;      /**< it begins anew: whoever has lost a file goes on here */
-  uint8_t has_mesh; /**< it is no continuation: whoever joins needs the last of these, and then a key */
+  uint8_t key; /**< it begins anew: whoever has lost a file goes on here */
+  uint8_t
+      has_mesh; /**< it is no continuation: whoever joins needs the last of these, and then a key */
 } anic_live_piece;
 
 /**
@@ -437,7 +451,8 @@ typedef struct anic_live_info {
   size_t struct_size;
   uint64_t pushed_frames;
   uint64_t waiting_frames; /**< frames of which no file is made yet */
-  uint64_t late_frames;    /**< of these, frames of full files that are not begun: 0 while the encoder keeps
+  uint64_t
+      late_frames; /**< of these, frames of full files that are not begun: 0 while the encoder keeps
                               up, else how far it is behind */
   uint64_t waiting_pieces; /**< files made, and not taken */
   double encode_seconds;   /**< that the last file took */

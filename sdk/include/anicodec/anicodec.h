@@ -152,7 +152,8 @@ enum anic_status ANIC_INT32 {
   ANIC_E_SEGMENT = 48, /**< a segment contradicts its counts or its mesh */
   ANIC_E_HASH = 49,
   ANIC_E_MESHES = 50, /**< a continuation of a live stream follows a file with other meshes */
-  ANIC_E_SEGMENT_MISSING = 51, /**< a file of a live stream continues one that was lost, or not opened in full */
+  ANIC_E_SEGMENT_MISSING =
+      51, /**< a file of a live stream continues one that was lost, or not opened in full */
 
   ANIC_E_LIMIT = 60, /**< more than anic_options allow */
 
@@ -278,13 +279,14 @@ typedef struct anic_options {
 /** Memory that opening a file takes, known from its first bytes. Spec: 11, section 3. */
 typedef struct anic_requirements {
   size_t struct_size;
-  uint64_t head_bytes;     /**< first bytes of the file that anic_get_requirements() has to see */
-  uint64_t file_bytes;     /**< the whole file; 0 while its header is not seen */
-  uint64_t resident_bytes; /**< held while the asset is open; within 5 % or 4096 bytes, but for geometry
+  uint64_t head_bytes; /**< first bytes of the file that anic_get_requirements() has to see */
+  uint64_t file_bytes; /**< the whole file; 0 while its header is not seen */
+  uint64_t
+      resident_bytes; /**< held while the asset is open; within 5 % or 4096 bytes, but for geometry
                               interpolation: a bound of up to three times it */
-  uint64_t opening_bytes;  /**< held at most while the file opens, resident bytes included, the
+  uint64_t opening_bytes; /**< held at most while the file opens, resident bytes included, the
                               bytes of the file excluded */
-  uint64_t draco_bytes;    /**< part of opening_bytes that Draco may take from the global heap */
+  uint64_t draco_bytes;   /**< part of opening_bytes that Draco may take from the global heap */
   uint64_t block_bytes; /**< a block for anic_init_block_allocator() in which the asset can open */
   uint64_t context_bytes; /**< of one context, at most */
   uint32_t mesh_count;
@@ -454,9 +456,9 @@ typedef struct anic_asset_info {
   double rmse;            /**< root of the mean squared error, in units of the clip */
   double kg;              /**< KG error, per cent */
   double surface_error;   /**< largest distance from the source's surface, in units of the clip */
-  double surface_error_mean; /**< mean distance from it */
-  uint64_t resident_bytes;   /**< held by this asset */
-  uint64_t context_bytes;    /**< held by each context */
+  double surface_error_mean;     /**< mean distance from it */
+  uint64_t resident_bytes;       /**< held by this asset */
+  uint64_t context_bytes;        /**< held by each context */
   double max_displacement_error; /**< largest error of a vertex's move from frame to frame */
   double origin
       [3]; /**< where the positions of this interface count from, as the source has it: added in double, it
@@ -523,7 +525,7 @@ ANIC_API uint32_t anic_get_event_count(const anic_asset* asset, uint32_t clip);
  * - Errors: ANIC_E_ARGUMENT: there is no such clip or event, too
  */
 ANIC_API anic_status anic_get_event(const anic_asset* asset, uint32_t clip, uint32_t event,
-                                     anic_event* out);
+                                    anic_event* out);
 
 /** A mesh. The string belongs to the asset. */
 typedef struct anic_mesh {
@@ -1001,7 +1003,7 @@ typedef struct anic_ray {
 /** The first point of the surface on a ray. */
 typedef struct anic_hit {
   anic_surface_point point;
-  float distance;    /**< from the origin, in lengths of the ray's direction; infinite: none was hit */
+  float distance; /**< from the origin, in lengths of the ray's direction; infinite: none was hit */
   uint32_t triangle; /**< its number in the list; UINT32_MAX: none was hit */
   anic_side side;    /**< that the ray meets: ANIC_SIDE_FRONT or ANIC_SIDE_BACK */
 } anic_hit;
@@ -1355,10 +1357,10 @@ typedef struct anic_correction {
  */
 typedef struct anic_part {
   uint32_t segment;
-  float share; /**< the position is the sum of share * x over the parts */
+  float share;          /**< the position is the sum of share * x over the parts */
   const float* weights; /**< of region 0, then of the others */
-  const float* shape; /**< NULL with ANIC_RECONSTRUCTION_LINEAR */
-  float pose_map[12]; /**< of region 0 */
+  const float* shape;   /**< NULL with ANIC_RECONSTRUCTION_LINEAR */
+  float pose_map[12];   /**< of region 0 */
   float motion[12];
   const anic_correction* corrections;
   uint32_t correction_count;
@@ -1375,7 +1377,8 @@ typedef struct anic_parts {
   uint32_t
       components[ANIC_MAX_PARTS]; /**< of each part: how many weights are to be used, all unless
                                           anic_set_quality() said otherwise */
-  const float* pose_maps[ANIC_MAX_PARTS]; /**< of each part: pose_map of each region, 12 numbers each;
+  const float*
+      pose_maps[ANIC_MAX_PARTS]; /**< of each part: pose_map of each region, 12 numbers each;
                                              NULL: the basis has no pose */
 } anic_parts;
 

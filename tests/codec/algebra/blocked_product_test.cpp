@@ -31,7 +31,10 @@ Eigen::MatrixXd plain_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b
 // So registers of any width give the same bits.
 TEST(BlockedProduct, HasTheBitsOfAPlainLoop) {
   for (const auto& [depth, rows, columns] :
-       {std::tuple<Eigen::Index, Eigen::Index, Eigen::Index>{1, 1, 1}, {7, 3, 5}, {240, 64, 64}, {500, 131, 67},
+       {std::tuple<Eigen::Index, Eigen::Index, Eigen::Index>{1, 1, 1},
+        {7, 3, 5},
+        {240, 64, 64},
+        {500, 131, 67},
         {241, 16, 9}}) {
     const Eigen::MatrixXd a = random_matrix(depth, rows, 1), b = random_matrix(depth, columns, 2);
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(rows, columns);

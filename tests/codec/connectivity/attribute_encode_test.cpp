@@ -301,7 +301,8 @@ TEST(AttributeDecode, SurvivesDamagedStreams) {
     Status status = AttributeRecord::read(bytes, clip.limits().meshes[0], &record);
     Vector<MeshAttribute> out;
     if (status == Status::kOk)
-      status = decode_attributes(record, clip.limits().meshes[0], clip.meshes()[0].topology, moving, &out);
+      status = decode_attributes(record, clip.limits().meshes[0], clip.meshes()[0].topology, moving,
+                                 &out);
     refused += status != Status::kOk;
     for (const MeshAttribute& a : out) {
       for (float x : a.values)

@@ -40,8 +40,8 @@ Bytes encoded(const char* name, const FrameRun& part) {
 }
 
 /// The file with a chunk more, whose bytes are its type and `what`.
-Bytes with_chunk(const Bytes& file, const char (&type)[5], bool copied, uint16_t mesh, uint32_t segment,
-                 const std::string& what = "") {
+Bytes with_chunk(const Bytes& file, const char (&type)[5], bool copied, uint16_t mesh,
+                 uint32_t segment, const std::string& what = "") {
   EditedFile edited(file);
   Chunk chunk;
   chunk.type = chunk_type(type);
@@ -63,8 +63,8 @@ std::vector<std::string> copied_chunks(const Bytes& file) {
     if (!chunk.copied || name[0] != 'x')
       continue;
     const ByteView payload = reader.unchecked(chunk);
-    found.push_back(std::string(payload.data, payload.data + payload.size) + " " + std::to_string(chunk.mesh) + " " +
-                    std::to_string(chunk.segment));
+    found.push_back(std::string(payload.data, payload.data + payload.size) + " " +
+                    std::to_string(chunk.mesh) + " " + std::to_string(chunk.segment));
   }
   return found;
 }
@@ -99,7 +99,8 @@ class LeftOut : public testing::Test {
 const std::string kWhole = "xall 65535 4294967295", kMesh = "xmsh 0 4294967295";
 
 TEST_F(LeftOut, EditsKeepCopiedChunksUnderNewNumbers) {
-  const auto expected = ElementsAre(kWhole, kMesh, "xseg 0 0", "xseg more 0 0", "xseg 0 1", "xseg more 0 1");
+  const auto expected =
+      ElementsAre(kWhole, kMesh, "xseg 0 0", "xseg more 0 0", "xseg 0 1", "xseg more 0 1");
   const Bytes joined = join_clips({{"run", run_}, {"walk", walk_}});
   EXPECT_THAT(copied_chunks(joined), expected);
   EXPECT_THAT(lines(joined), IsEmpty());
@@ -115,13 +116,15 @@ TEST_F(LeftOut, EditsSayWhatTheyLeaveOut) {
   run_ = with_chunk(run_, "xbbb", !kCopied, 0, 0);
   run_ = with_chunk(run_, "xccc", kCopied, kNoMesh, kNoSegment);
   run_ = with_chunk(run_, "META", kCopied, kNoMesh, kNoSegment, "{}");
-  const Bytes made[] = {join_clips({{"run", run_}, {"walk", walk_}}), add_clips({"walk", walk_}, {"run", run_})};
+  const Bytes made[] = {join_clips({{"run", run_}, {"walk", walk_}}),
+                        add_clips({"walk", walk_}, {"run", run_})};
   for (const Bytes& file : made) {
     EXPECT_THAT(copied_chunks(file), SizeIs(6));
-    EXPECT_THAT(lines(file), ElementsAre("run: leaves out chunk xbbb, which this version does not know",
-                                         "run: leaves out chunk xccc: only that of the first file is kept",
-                                         "run: leaves out chunk META: only that of the first file is kept",
-                                         "walk: leaves out chunk xaaa, which this version does not know"));
+    EXPECT_THAT(lines(file),
+                ElementsAre("run: leaves out chunk xbbb, which this version does not know",
+                            "run: leaves out chunk xccc: only that of the first file is kept",
+                            "run: leaves out chunk META: only that of the first file is kept",
+                            "walk: leaves out chunk xaaa, which this version does not know"));
   }
 }
 
@@ -130,8 +133,9 @@ TEST_F(LeftOut, EditsSayWhichRecordsTheyWriteWithoutFields) {
   for (Bytes* payload : {&edited.part("LIMI").payload, &edited.part("CLIP").payload})
     payload->insert(payload->end(), {77, 1, 0});
   walk_ = edited.bytes();
-  const auto expected = ElementsAre("walk: leaves out fields of chunk LIMI that this version does not know",
-                                    "walk: leaves out fields of chunk CLIP that this version does not know");
+  const auto expected =
+      ElementsAre("walk: leaves out fields of chunk LIMI that this version does not know",
+                  "walk: leaves out fields of chunk CLIP that this version does not know");
   EXPECT_THAT(lines(join_clips({{"run", run_}, {"walk", walk_}})), expected);
   EXPECT_THAT(lines(add_clips({"walk", walk_}, {"run", run_})), expected);
 }
@@ -140,12 +144,21 @@ TEST_F(LeftOut, EditsRefuseRequiredChunksThatTheyDoNotKnow) {
   EditedFile edited(run_);
   edited.parts.back().chunk.required = true;
   const Bytes needs = edited.bytes();
-  const std::vector<std::function<void()>> edits = {[&] { join_clips({{"walk", walk_}, {"run", needs}}); },
-                                                    [&] { add_clips({"walk", walk_}, {"run", needs}); },
-                                                    [&] { add_clips({"run", needs}, {"walk", walk_}); },
-                                                    [&] { remove_clips({"run", needs}, {"run"}); }};
+  const std::vector<std::function<void()>> edits = {[&] {
+                                                      join_clips({{"walk", walk_}, {"run", needs}});
+                                                    },
+                                                    [&] {
+                                                      add_clips({"walk", walk_}, {"run", needs});
+                                                    },
+                                                    [&] {
+                                                      add_clips({"run", needs}, {"walk", walk_});
+                                                    },
+                                                    [&] {
+                                                      remove_clips({"run", needs}, {"run"});
+                                                    }};
   for (const auto& edit : edits)
-    EXPECT_THAT(refusal_of(edit), HasSubstr("run: has a chunk xseg that this version does not know"));
+    EXPECT_THAT(refusal_of(edit),
+                HasSubstr("run: has a chunk xseg that this version does not know"));
 }
 
 }  // namespace

@@ -21,7 +21,10 @@ TEST(LiveStream, EndsAnywhereAndRefusesWhatIsNoStream) {
   LiveEncoder encoder(clip, options);
   std::vector<Bytes> files;
   for (int i = 0; i < 2; ++i)
-    files.push_back(encoder.encode({clip.positions.begin(), clip.positions.begin() + ptrdiff_t{6} * clip.vertex_count}).file);
+    files.push_back(encoder
+                        .encode({clip.positions.begin(),
+                                 clip.positions.begin() + ptrdiff_t{6} * clip.vertex_count})
+                        .file);
   Bytes stream = files[0];
   stream.insert(stream.end(), files[1].begin(), files[1].end());
   EXPECT_FALSE(is_live_stream(files[0]));

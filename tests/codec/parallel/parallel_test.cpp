@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/parallel/parallel.h"
+
 #include "codec/parallel/thread_count.h"
 
 #include <atomic>
@@ -28,8 +29,10 @@ TEST(Parallel, RunsEveryBodyOnce) {
 TEST(Parallel, TellsWhatABodyThrows) {
   for (const size_t threads : {1, 4}) {
     with_threads(threads, [] {
-      EXPECT_THROW(parallel_for(0, 100, [](int) { throw std::out_of_range("a"); }), std::out_of_range);
-      EXPECT_THROW(parallel_tasks(9, [](size_t) { throw std::out_of_range("a"); }), std::out_of_range);
+      EXPECT_THROW(parallel_for(0, 100, [](int) { throw std::out_of_range("a"); }),
+                   std::out_of_range);
+      EXPECT_THROW(parallel_tasks(9, [](size_t) { throw std::out_of_range("a"); }),
+                   std::out_of_range);
       EXPECT_THROW(parallel_invoke([] { throw std::out_of_range("a"); }, [] {}), std::out_of_range);
     });
   }
@@ -39,7 +42,8 @@ TEST(Parallel, TellsWhatABodyThrows) {
 void check_results() {
   std::unique_ptr<int> one, other;
   isolated([&] {
-    parallel_invoke([&] { one = std::make_unique<int>(1); }, [&] { other = std::make_unique<int>(2); });
+    parallel_invoke([&] { one = std::make_unique<int>(1); },
+                    [&] { other = std::make_unique<int>(2); });
   });
   ASSERT_TRUE(one && other);
   std::vector<int> made(100);

@@ -24,7 +24,8 @@ TEST(SlowEffort, MoreOfItNeverEndsWithALargerFile) {
         options.effort = effort;
         options.smallest = smallest;
         const auto bytes = static_cast<double>(encode(clip, options).file.size());
-        EXPECT_LE(bytes, traded * least) << name << ", effort " << static_cast<int>(effort) << ", smallest " << smallest;
+        EXPECT_LE(bytes, traded * least)
+            << name << ", effort " << static_cast<int>(effort) << ", smallest " << smallest;
         least = std::min(least, bytes);
       }
     }

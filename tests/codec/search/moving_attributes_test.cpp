@@ -180,7 +180,8 @@ TEST(MovingAttributes, OfCornersMoveOnTheirOwn) {
   clip.attributes.resize(1);
   Attribute& uv = clip.attributes[0];
   move(clip, uv, [](size_t corner, uint32_t component, uint32_t f) {
-    return 0.02F * static_cast<float>((corner * 7 + component) % 5) * std::sin(0.7F * static_cast<float>(f));
+    return 0.02F * static_cast<float>((corner * 7 + component) % 5) *
+           std::sin(0.7F * static_cast<float>(f));
   });
   EncodeOptions options = coarse();
   options.order = OrderMode::kAll;

@@ -79,13 +79,15 @@ TEST(ExactEncode, GivesBackAnyNumbersBitForBit) {
     if (std::isfinite(x))
       positions.push_back(x);
   }
-  EXPECT_LT(static_cast<double>(expect_same(positions)), 4.5 * static_cast<double>(positions.size()));
+  EXPECT_LT(static_cast<double>(expect_same(positions)),
+            4.5 * static_cast<double>(positions.size()));
 }
 
 TEST(ExactEncode, GivesBackZerosOfBothSignsAndTheEndsOfTheRange) {
   using Float = std::numeric_limits<float>;
-  const float values[] = {0.0F,         -0.0F,         Float::max(), -Float::max(), Float::denorm_min(),
-                          Float::min(), -Float::min(), 1.0F,         -1.0F};
+  const float values[] = {
+      0.0F,         -0.0F,         Float::max(), -Float::max(), Float::denorm_min(),
+      Float::min(), -Float::min(), 1.0F,         -1.0F};
   std::mt19937 random(4);
   std::vector<float> positions;
   for (size_t i = 0; i < size_t{3} * kVertices * 5; ++i)
@@ -96,7 +98,8 @@ TEST(ExactEncode, GivesBackZerosOfBothSignsAndTheEndsOfTheRange) {
 
 TEST(ExactEncode, TakesLittleForMotionThatIsSmoothAndLessOnALattice) {
   const size_t plain = expect_same(sheet_frames(40, [](double x) { return x; }));
-  const size_t decimals = expect_same(sheet_frames(40, [](double x) { return std::round(x * 1e3) / 1e3; }));
+  const size_t decimals =
+      expect_same(sheet_frames(40, [](double x) { return std::round(x * 1e3) / 1e3; }));
   EXPECT_LT(plain, 12 * kVertices * 40 / 2);
   EXPECT_LT(decimals, plain / 2);
 }
@@ -123,7 +126,8 @@ TEST(ExactEncode, OneFrameAndOneVertex) {
 
 TEST(ExactEncode, ADecoderRefusesWhatNoEncoderWrites) {
   const Topology topology = grid();
-  const std::vector<float> positions = sheet_frames(6, [](double x) { return std::round(x * 1e3) / 1e3; });
+  const std::vector<float> positions =
+      sheet_frames(6, [](double x) { return std::round(x * 1e3) / 1e3; });
   const Bytes good = encode_exact({positions.data(), 6, kVertices}, topology);
   Segment segment;
   Bytes bytes = good;

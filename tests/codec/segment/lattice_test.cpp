@@ -19,7 +19,8 @@ std::vector<float> points(int count, int range, Point point) {
   std::mt19937 random(5);
   std::vector<float> all;
   for (int i = 0; i < count; ++i)
-    all.push_back(static_cast<float>(point(static_cast<int>(random() % static_cast<unsigned>(range)) - range / 3)));
+    all.push_back(static_cast<float>(
+        point(static_cast<int>(random() % static_cast<unsigned>(range)) - range / 3)));
   return all;
 }
 

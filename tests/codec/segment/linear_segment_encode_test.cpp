@@ -32,19 +32,20 @@ class Sheet {
     for (uint32_t y = 0; y + 1 < kWaveHeight; ++y)
       for (uint32_t x = 0; x + 1 < kWaveWidth; ++x)
         source.polygons.add(std::vector<uint32_t>{y * kWaveWidth + x, y * kWaveWidth + x + 1,
-                                                  (y + 1) * kWaveWidth + x + 1, (y + 1) * kWaveWidth + x});
+                                                  (y + 1) * kWaveWidth + x + 1,
+                                                  (y + 1) * kWaveWidth + x});
     for (uint32_t v = 0; v < source.vertex_count; ++v)
-      source.positions.insert(source.positions.end(),
-                              {float(v % kWaveWidth), float(v / kWaveWidth), 0.01F * float(v * v % 7)});
+      source.positions.insert(source.positions.end(), {float(v % kWaveWidth), float(v / kWaveWidth),
+                                                       0.01F * float(v * v % 7)});
     layout = lay_out_mesh(source);
     copies.assign(layout.sizes.coded_vertices, 1);
     for (uint32_t f = 0; f < kWaveFrames; ++f) {
       for (uint32_t v : layout.coded_source) {
         const double x = v % kWaveWidth, y = v / kWaveWidth;
         const double z = x < kWaveWidth / 2. ? std::sin(0.8 * y + 0.7 * f) + std::sin(1.9 * y - f)
-                                         : std::sin(0.9 * x + 0.4 * f) + std::cos(0.2 * x * f);
-        positions.insert(positions.end(), {static_cast<float>(x + 0.1 * f),
-                                           static_cast<float>(y), static_cast<float>(z)});
+                                             : std::sin(0.9 * x + 0.4 * f) + std::cos(0.2 * x * f);
+        positions.insert(positions.end(), {static_cast<float>(x + 0.1 * f), static_cast<float>(y),
+                                           static_cast<float>(z)});
       }
     }
   }
@@ -54,8 +55,8 @@ class Sheet {
   LinearBasis basis(uint32_t regions, bool scattered = false) const {
     const LinearAnalysis analysis(view());
     if (regions == 1)
-      return analysis.basis(BasisKind::kEigentrajectories, ReferencePose::kRankThree,
-                            Base::kAffine, 1000, 0);
+      return analysis.basis(BasisKind::kEigentrajectories, ReferencePose::kRankThree, Base::kAffine,
+                            1000, 0);
     Vector<uint8_t> of_vertex(layout.sizes.coded_vertices);
     for (uint32_t v = 0; v < of_vertex.size(); ++v)
       of_vertex[v] = static_cast<uint8_t>(
@@ -154,7 +155,8 @@ TEST(LinearSegmentEncode, KnowsWhatItsStreamsDecodeTo) {
     EXPECT_EQ(known.vertex_region, decoded.vertex_region);
     ASSERT_EQ(known.pose_maps.size(), decoded.pose_maps.size());
     for (size_t i = 0; i < known.pose_maps.size(); ++i)
-      EXPECT_TRUE(std::equal(known.pose_maps[i].m, known.pose_maps[i].m + 12, decoded.pose_maps[i].m));
+      EXPECT_TRUE(
+          std::equal(known.pose_maps[i].m, known.pose_maps[i].m + 12, decoded.pose_maps[i].m));
   }
 }
 

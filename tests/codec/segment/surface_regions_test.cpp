@@ -21,7 +21,8 @@ MeshGraph sheet_graph(uint32_t sheets = 1) {
     for (uint32_t y = 0; y + 1 < kHeight; ++y) {
       for (uint32_t x = 0; x + 1 < kWidth; ++x) {
         const uint32_t v = (s * kHeight + y) * kWidth + x;
-        triangles.insert(triangles.end(), {v, v + 1, v + kWidth, v + 1, v + kWidth + 1, v + kWidth});
+        triangles.insert(triangles.end(),
+                         {v, v + 1, v + kWidth, v + 1, v + kWidth + 1, v + kWidth});
       }
     }
   }
@@ -41,8 +42,8 @@ std::vector<float> waves(uint32_t border) {
       double z = 0;
       for (int k = 1; k <= 6; ++k)  // of little in common
         z += std::sin(left ? 0.9 * k * y + 0.37 * k * k * f : 1.3 * k * y + 0.53 * k * k * f + 1);
-      positions.insert(positions.end(), {static_cast<float>(x), static_cast<float>(y),
-                                         static_cast<float>(0.3 * z)});
+      positions.insert(positions.end(),
+                       {static_cast<float>(x), static_cast<float>(y), static_cast<float>(0.3 * z)});
     }
   }
   return positions;
@@ -88,9 +89,9 @@ TEST(SurfaceRegions, KeepSmallPiecesWhole) {
     positions.insert(positions.end(), one.begin() + 3 * kSheet * f,
                      one.begin() + 3 * kSheet * (f + 1));
     for (uint32_t i = 0; i < kPieces * kSize; ++i)
-      positions.insert(positions.end(), {static_cast<float>(100 + i % kSize),
-                                         static_cast<float>(i / kSize),
-                                         static_cast<float>(std::sin(0.3 * f * (i / kSize)))});
+      positions.insert(positions.end(),
+                       {static_cast<float>(100 + i % kSize), static_cast<float>(i / kSize),
+                        static_cast<float>(std::sin(0.3 * f * (i / kSize)))});
   }
   const Vector<uint8_t> regions = find_regions({positions.data(), kFrames, n}, graph, 4);
   for (uint32_t p = 0; p < kPieces; ++p) {

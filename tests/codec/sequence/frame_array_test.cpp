@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
+#include "codec/sequence/frame_array.h"
+
 #include "codec/encode.h"
 #include "codec/sequence/error.h"
-#include "codec/sequence/frame_array.h"
 #include "codec/sequence/machine_memory.h"
 #include "corpus/clips.h"
 
@@ -76,7 +77,8 @@ TEST_F(FrameArrayTest, NamesTheFolderThatHasNoRoom) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kInternal);
-    EXPECT_EQ(std::string(error.what()).find("/no/such/folder: 2097216 bytes of frames"), 0U) << error.what();
+    EXPECT_EQ(std::string(error.what()).find("/no/such/folder: 2097216 bytes of frames"), 0U)
+        << error.what();
   }
 }
 

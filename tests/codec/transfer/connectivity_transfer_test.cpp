@@ -96,7 +96,8 @@ TestMesh post(uint32_t n, double angle) {
 }
 
 TEST(ConnectivityTransfer, TriesAgainWhereAPartSwingsFar) {
-  const TransferResult result = transfer(transfer_frame(post(31, -0.7)), transfer_frame(post(33, 0.7)));
+  const TransferResult result =
+      transfer(transfer_frame(post(31, -0.7)), transfer_frame(post(33, 0.7)));
   EXPECT_EQ(result.segments.size(), 1U) << alarm_names(result.frames[1].alarms);
   EXPECT_GT(result.frames[1].attempts, 1);
 }
@@ -159,7 +160,9 @@ TEST(ConnectivityTransfer, AlarmsWhereTrianglesLoseTheirShapes) {
 }
 
 TEST(ConnectivityTransfer, GoesOnFromTheFrameThatBeganASegment) {
-  auto source = [](uint32_t f) { return f < 2 ? transfer_frame(sphere(9 + f)) : inside_out(10 + f); };
+  auto source = [](uint32_t f) {
+    return f < 2 ? transfer_frame(sphere(9 + f)) : inside_out(10 + f);
+  };
   const TransferResult result = transfer_connectivity(source, 4, {});
   ASSERT_EQ(result.segments.size(), 2U)
       << alarm_names(result.frames[1].alarms) << "; " << alarm_names(result.frames[3].alarms)

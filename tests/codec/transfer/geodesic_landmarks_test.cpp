@@ -86,7 +86,8 @@ TEST(GeodesicLandmarks, LeaveOutAnchorsThatDisagree) {
   const GeodesicGraph graph(mesh.topology, mesh.positions);
   std::vector<Anchor> anchors;
   for (uint32_t i = 0; i < mesh.topology.vertex_count; i += 3)
-    anchors.push_back({i, i % 30 == 0 ? mesh.topology.vertex_count - 1 - i : i});  // a tenth: at the other end
+    anchors.push_back(
+        {i, i % 30 == 0 ? mesh.topology.vertex_count - 1 - i : i});  // a tenth: at the other end
   const std::vector<Landmark> landmarks = geodesic_landmarks(graph, anchors, graph, surface, 1);
   EXPECT_GT(landmarks.size(), 60U);
   for (const Landmark& l : landmarks)

@@ -109,7 +109,8 @@ TEST(SymbolRow, IsCodedAmongBits) {
     encoder.bit(written.bit, value % 2 != 0);
   }
   const Vector<uint8_t> bytes = encoder.finish();
-  EXPECT_NEAR(static_cast<double>(counted) / kBitCostOne / 8, static_cast<double>(bytes.size()), 20);
+  EXPECT_NEAR(static_cast<double>(counted) / kBitCostOne / 8, static_cast<double>(bytes.size()),
+              20);
   Random again(5);
   Rows read;
   BinaryDecoder decoder(bytes.data(), bytes.size());

@@ -82,7 +82,8 @@ class TimeWeights : public testing::Test {
                                 uint32_t allowed) {
     const Coded coded = encode(frames, components, allowed);
     std::vector<std::vector<int32_t>> values;
-    EXPECT_TRUE(decode(frames, components, coded.bytes, &values)) << frames << " frames, " << allowed;
+    EXPECT_TRUE(decode(frames, components, coded.bytes, &values))
+        << frames << " frames, " << allowed;
     EXPECT_EQ(values, coded.values);
     if (allowed >> static_cast<uint32_t>(WeightPredictor::kCosine))
       return;
@@ -176,8 +177,8 @@ TEST_F(TimeWeights, TruncatedOrCorruptStreamsEndInTime) {
 
 // A run longer than a transform is cut.
 TEST_F(TimeWeights, TransformsRunsOfAnyLength) {
-  for (const uint32_t frames :
-       {CosineTransform::kMaxLength, CosineTransform::kMaxLength + 1, 2 * CosineTransform::kMaxLength + 452}) {
+  for (const uint32_t frames : {CosineTransform::kMaxLength, CosineTransform::kMaxLength + 1,
+                                2 * CosineTransform::kMaxLength + 452}) {
     Component wave{1, {}};
     for (uint32_t f = 0; f < frames; ++f)
       wave.x.push_back(300 * std::cos(kPi * (f + 0.5) / 32));

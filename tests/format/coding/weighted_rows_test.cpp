@@ -52,7 +52,8 @@ TEST(WeightedRows, KeepEverySymbolPossible) {
   Known known;
   BinaryEncoder encoder;
   for (uint32_t i = 0; i < 20000; ++i) {
-    FourRows four = {&known.rows[0][0], &known.rows[1][1], &known.rows[i % 2][2], &known.rows[i % 3][3]};
+    FourRows four = {&known.rows[0][0], &known.rows[1][1], &known.rows[i % 2][2],
+                     &known.rows[i % 3][3]};
     code_weighted_symbol(encoder, four, known.weights, i % 1000 == 0 ? 7 : 0);
     const WeightedDistribution distribution(four, known.weights);
     for (uint32_t s = 0; s < kRowSymbols; ++s)

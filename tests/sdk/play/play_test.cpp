@@ -75,9 +75,12 @@ Segment random_segment(const Shape& shape, uint32_t seed) {
   if (shape.regions) {
     s.regions = 3;
     s.vertex_region.resize(size_t{block_count(s.vertices)} * kBlock);
-    for (uint32_t v = 0; v < s.vertex_region.size(); ++v)  // pure blocks, and borders of two and three
-      s.vertex_region[v] =
-          v < 20 ? 0 : v < 90 ? 2 : v < 100 ? static_cast<uint8_t>(random() % 3) : 1;
+    for (uint32_t v = 0; v < s.vertex_region.size();
+         ++v)  // pure blocks, and borders of two and three
+      s.vertex_region[v] = v < 20    ? 0
+                           : v < 90  ? 2
+                           : v < 100 ? static_cast<uint8_t>(random() % 3)
+                                     : 1;
   }
   s.weights.resize(size_t{kFrames} * s.regions * s.components * s.weight_channels());
   for (size_t i = 0; i < s.weights.size(); ++i)

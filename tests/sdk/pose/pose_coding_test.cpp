@@ -142,8 +142,7 @@ TEST(PoseCoding, ASmoothSheetTakesFewBits) {
   Sample s = sheet(40);
   expect_round_trip(s);
   const CornerTable table(s.topology);
-  EXPECT_LT(encode_pose(table, PoseSteps::kAny, s.pose).size() * 8,
-            6U * s.topology.coded_vertices);
+  EXPECT_LT(encode_pose(table, PoseSteps::kAny, s.pose).size() * 8, 6U * s.topology.coded_vertices);
 }
 
 TEST(PoseCoding, CoordinatesThatRepeatTakeLessThanHalfWhenExact) {

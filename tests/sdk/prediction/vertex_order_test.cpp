@@ -107,7 +107,8 @@ VertexOrder order_of(const Mesh& mesh, const std::vector<uint8_t>& regions) {
   VertexOrder o;
   EXPECT_EQ(graph.init(mesh.triangles.data(), mesh.triangles.size() / 3, mesh.vertex_count()),
             Status::kOk);
-  EXPECT_EQ(make_vertex_order(graph, mesh.positions.data(), 16, 1, &o, regions.data()), Status::kOk);
+  EXPECT_EQ(make_vertex_order(graph, mesh.positions.data(), 16, 1, &o, regions.data()),
+            Status::kOk);
   return o;
 }
 

@@ -61,7 +61,8 @@ TEST_F(AddCommand, AddsAClipAndTakesItOutAgain) {
 TEST_F(AddCommand, SaysWhatItLeavesOut) {
   const Outcome seen = add({"--meta", "author=somebody"});
   EXPECT_EQ(seen.status, 0);
-  EXPECT_THAT(seen.err, HasSubstr("run.obj: leaves out chunk META: only that of the first file is kept\n"));
+  EXPECT_THAT(seen.err,
+              HasSubstr("run.obj: leaves out chunk META: only that of the first file is kept\n"));
 }
 
 TEST_F(AddCommand, RefusesInOneLineAndWritesNothing) {

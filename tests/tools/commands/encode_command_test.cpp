@@ -435,7 +435,8 @@ TEST_F(EncodeCommand, RefusesWhatCannotBeEncodedWithStatusTwo) {
   folder_.write("huge.obj", "v 0 0 0\nv 1e20 0 0\nv 0 1e20 3\nf 1 2 3\n");
   for (const char* threads : {"1", "2", "4"}) {
     for (int run = 0; run < 25; ++run) {
-      Outcome outcome = anicodec({"encode", folder_ / "huge.obj", "-o", folder_ / "huge.anic", "--json", "-j", threads});
+      Outcome outcome = anicodec(
+          {"encode", folder_ / "huge.obj", "-o", folder_ / "huge.anic", "--json", "-j", threads});
       ASSERT_EQ(outcome.status, 2) << outcome;
       EXPECT_EQ(outcome.json()["status"], 2);
       EXPECT_THAT(outcome.json()["error"], HasSubstr("the coordinates are too large"));
@@ -450,10 +451,12 @@ TEST_F(EncodeCommand, RefusesWhatCannotBeEncodedWithStatusTwo) {
 TEST_F(EncodeCommand, EndsWithStatusFiveWithoutMemory) {
 #if !defined(__SANITIZE_ADDRESS__)
   for (const char* kilobytes : {"40000", "45000", "50000", "60000", "80000"}) {
-    Outcome outcome = run_program({"sh", "-c",
-                                   std::string("ulimit -v ") + kilobytes + "; exec \"$0\" encode -q -f -j 4 \"$1\" -o \"$2\"",
-                                   ANICODEC_COMMAND, folder_ / "a.pc2", folder_ / "a.anic"});
-    EXPECT_THAT(outcome.status, testing::AnyOf(0, 5, 127)) << kilobytes << outcome;  // 127: not even started
+    Outcome outcome = run_program(
+        {"sh", "-c",
+         std::string("ulimit -v ") + kilobytes + "; exec \"$0\" encode -q -f -j 4 \"$1\" -o \"$2\"",
+         ANICODEC_COMMAND, folder_ / "a.pc2", folder_ / "a.anic"});
+    EXPECT_THAT(outcome.status, testing::AnyOf(0, 5, 127))
+        << kilobytes << outcome;  // 127: not even started
   }
 #endif
 }

@@ -164,7 +164,8 @@ TEST_F(InspectCommand, ADamagedByteIsFoundAndLocated) {
 }
 
 TEST_F(InspectCommand, AnotherMajorVersionIsUnsupported) {
-  for (const auto& [major, what] : {std::pair{'\2', "a later major version"}, {'\0', "a draft of the format, 0.x"}}) {
+  for (const auto& [major, what] :
+       {std::pair{'\2', "a later major version"}, {'\0', "a draft of the format, 0.x"}}) {
     std::string other = bytes_;
     other[8] = major;
     folder_.write("other.anic", other);

@@ -291,9 +291,9 @@ TEST(EncodeMassage, RecordsWhatItDid) {
 TEST(EncodeMassage, TransfersMeshesOfOtherFaces) {
   TemporaryFolder folder;
   write_scans(folder, 3);
-  EXPECT_EQ(
-      anicodec({"encode", folder / "scan_*.obj", "-o", folder / "a.anic", "--effort", "fast"}).status,
-      2);
+  EXPECT_EQ(anicodec({"encode", folder / "scan_*.obj", "-o", folder / "a.anic", "--effort", "fast"})
+                .status,
+            2);
   Outcome outcome = anicodec({"encode", folder / "scan_*.obj", "-o", folder / "a.anic",
                               "--topology-changes", "transfer", "--effort", "fast", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome;

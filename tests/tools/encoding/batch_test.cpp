@@ -32,8 +32,8 @@ class BatchCommand : public testing::Test {
   }
 
   Outcome batch(std::vector<std::string> options = {}) {
-    options.insert(options.begin(),
-                   {"encode", "--batch", folder_ / "in", "-o", folder_ / "out", "--effort", "fast"});
+    options.insert(options.begin(), {"encode", "--batch", folder_ / "in", "-o", folder_ / "out",
+                                     "--effort", "fast"});
     return anicodec(options);
   }
 

@@ -33,10 +33,10 @@ class LiveCapture : public testing::Test {
 
   /// Encodes the first bytes of the frames that the shell writes.
   Outcome encode(const std::string& input, const std::string& more = "-o live.anic") {
-    return run_program({"sh", "-c",
-                        "cd " + at(".") + "; " + input +
-                            " | " ANICODEC_COMMAND " encode --live limb.obj --fps 10 --effort fast " +
-                            more});
+    return run_program(
+        {"sh", "-c",
+         "cd " + at(".") + "; " + input +
+             " | " ANICODEC_COMMAND " encode --live limb.obj --fps 10 --effort fast " + more});
   }
 
   TemporaryFolder folder_;
@@ -132,7 +132,9 @@ TEST_F(LiveCapture, ListsItsFilesAndNamesALostOne) {
   EXPECT_THAT(lost.err, HasSubstr("1.00 s to 2.00 s: a file continues one that was lost"));
   lost = anicodec({"info", at("lost.anic"), "--json"});
   EXPECT_EQ(lost.status, 3);
-  EXPECT_EQ(nlohmann::json::parse(lost.out.substr(0, lost.out.find('\n')))["stream"]["files"][2]["plays"], false);
+  EXPECT_EQ(
+      nlohmann::json::parse(lost.out.substr(0, lost.out.find('\n')))["stream"]["files"][2]["plays"],
+      false);
   EXPECT_EQ(anicodec({"dump", at("lost.anic")}).status, 0);
   EXPECT_THAT(anicodec({"info", at("lost.anic")}).out, HasSubstr("continues a lost one"));
   lost = anicodec({"join", at("lost.anic"), "-o", at("clip.anic")});

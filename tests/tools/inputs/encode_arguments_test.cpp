@@ -42,7 +42,8 @@ TEST(EncodeArguments, EveryOptionThatChangesAnOutputChangesTheSettings) {
     for (size_t v = 0; settings.empty() && v < values.size(); ++v)
       settings = settings_with(i, values[v]);
     EXPECT_FALSE(settings.empty()) << option.names;
-    EXPECT_EQ(seen.insert(settings).second, !elsewhere.contains(option.long_name())) << option.names;
+    EXPECT_EQ(seen.insert(settings).second, !elsewhere.contains(option.long_name()))
+        << option.names;
   }
 }
 

@@ -21,8 +21,9 @@ using testing::Not;
 TEST(Report, NeedsNothingButABrowser) {
   TemporaryFolder folder;
   write_sequence(folder / "limb.pc2", corpus::make_clip("limb"));
-  Outcome outcome = anicodec({"analyze", folder / "limb.obj", folder / "limb.pc2", "--counts",
-                              "2,8", "--effort", "fast", "--full", "-o", folder / "r.html", "--json"});
+  Outcome outcome =
+      anicodec({"analyze", folder / "limb.obj", folder / "limb.pc2", "--counts", "2,8", "--effort",
+                "fast", "--full", "-o", folder / "r.html", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome;
   std::string page = folder.read("r.html");
   const size_t player = page.find("<iframe");
@@ -70,7 +71,8 @@ TEST(Report, IsQuickUnlessInFull) {
 TEST(Report, HasThePlayerAsItIs) {
   Report report = make_report(corpus::make_clip("one_frame"), {});
   report.player = "<p title='a'>\n&amp;\t</p>";
-  EXPECT_THAT(report_page(report), HasSubstr("srcdoc=\"&lt;p title=&#39;a&#39;&gt;\n&amp;amp;\t&lt;/p&gt;\""));
+  EXPECT_THAT(report_page(report),
+              HasSubstr("srcdoc=\"&lt;p title=&#39;a&#39;&gt;\n&amp;amp;\t&lt;/p&gt;\""));
 }
 
 TEST(Report, TakesClipsWithoutFacesOrMotion) {

@@ -75,7 +75,8 @@ void AbcMesh::find_face_sets(const AbcObject& object, const AbcNote& note) {
     archive_.time_of(*faces);
     face_sets_.push_back({set.name, AbcSamples(archive_.file, *faces)});
     if (!faces->is_constant())
-      note(path_ + ": face set '" + set.name + "' changes, and stays as in the first frame that shows the mesh");
+      note(path_ + ": face set '" + set.name +
+           "' changes, and stays as in the first frame that shows the mesh");
   }
 }
 
@@ -154,8 +155,8 @@ PolygonLabels AbcMesh::face_sets(double time, size_t polygons, const AbcNote& no
     }
     for (size_t other = 0; other < taken.size(); ++other) {
       if (taken[other] > 0)
-        note(path_ + ": " + std::to_string(taken[other]) + " faces of face set '" + set.name + "' are in '" +
-             labels.names[other] + "', too, and stay there alone");
+        note(path_ + ": " + std::to_string(taken[other]) + " faces of face set '" + set.name +
+             "' are in '" + labels.names[other] + "', too, and stay there alone");
     }
     labels.names.push_back(set.name);
   }

@@ -330,8 +330,8 @@ std::vector<Attribute> AlembicBake::moving_attributes(const AbcShown& shown, siz
     if (!found || !can_move(*found))
       continue;
     if (found->per_corner() && !shown.mirrored)
-      reorder(reversed_corners(shown.mesh->topologies()[shown.topology[frame]].polygons), found->components,
-              found->values);
+      reorder(reversed_corners(shown.mesh->topologies()[shown.topology[frame]].polygons),
+              found->components, found->values);
     out.push_back(std::move(*found));
   }
   return out;

@@ -24,8 +24,8 @@ struct AbcShown {
   /// The topology of the mesh that each frame shows; kAbcNone: it is hidden or empty.
   std::vector<uint32_t> topology;
   std::vector<int8_t> sides;  ///< of each frame: -1 mirrored, 0 flat
-  bool mirrored = false;  ///< by its transforms, which turns its faces
-  bool is_second = false;  ///< it is mirrored, in frames that another does not show
+  bool mirrored = false;      ///< by its transforms, which turns its faces
+  bool is_second = false;     ///< it is mirrored, in frames that another does not show
 
   /// The first frame that shows it, or that shows one topology.
   uint32_t first_frame() const;

@@ -71,7 +71,8 @@ void FrameChanges::compare_materials(const PolygonLabels& first, const PolygonLa
     tell("colours or images of materials change", path);
 }
 
-void FrameChanges::compare(const MeshDetails& first, const MeshDetails& now, const std::string& path) {
+void FrameChanges::compare(const MeshDetails& first, const MeshDetails& now,
+                           const std::string& path) {
   compare_attributes(first, now, path);
   if (!told_.contains("materials")) {
     const size_t before = told_.size();

@@ -16,15 +16,18 @@ namespace anicodec::tools {
 /// surface.
 class FrameChanges {
  public:
-  explicit FrameChanges(std::function<void(const std::string& text)> note) : note_(std::move(note)) {}
+  explicit FrameChanges(std::function<void(const std::string& text)> note)
+      : note_(std::move(note)) {}
 
   /// Compares a frame with the first. Costs a pass over the values.
   void compare(const MeshDetails& first, const MeshDetails& now, const std::string& path);
 
  private:
   void tell(const std::string& what, const std::string& path);
-  void compare_attributes(const MeshDetails& first, const MeshDetails& now, const std::string& path);
-  void compare_materials(const PolygonLabels& first, const PolygonLabels& now, const std::string& path);
+  void compare_attributes(const MeshDetails& first, const MeshDetails& now,
+                          const std::string& path);
+  void compare_materials(const PolygonLabels& first, const PolygonLabels& now,
+                         const std::string& path);
 
   std::function<void(const std::string& text)> note_;
   std::set<std::string> told_;

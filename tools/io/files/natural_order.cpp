@@ -39,14 +39,16 @@ struct Piece {
 
 /// Takes the piece that comes first; `before` is the character before it.
 Piece take_piece(std::string_view& text, char before, bool fractions) {
-  const bool negative = text[0] == '-' && !is_digit(before) && !is_letter(before) && digits_at(text, 1) > 0;
+  const bool negative =
+      text[0] == '-' && !is_digit(before) && !is_letter(before) && digits_at(text, 1) > 0;
   const size_t first = negative ? 1 : 0, digits = digits_at(text, first);
   size_t size = std::max<size_t>(first + digits, 1);
   Piece piece{.text = {}, .negative = negative};
   if (digits > 0) {
     piece.whole = text.substr(first, digits);
     piece.whole.remove_prefix(std::min(piece.whole.find_first_not_of('0'), digits));
-    const size_t more = fractions && size < text.size() && text[size] == '.' ? digits_at(text, size + 1) : 0;
+    const size_t more =
+        fractions && size < text.size() && text[size] == '.' ? digits_at(text, size + 1) : 0;
     if (more > 0) {
       piece.decimals = text.substr(size + 1, more);
       piece.decimals = piece.decimals.substr(0, piece.decimals.find_last_not_of('0') + 1);
@@ -73,7 +75,8 @@ bool natural_less(std::string_view a, std::string_view b, bool fractions) {
   char before_a = '\0', before_b = '\0';
   int zeros = 0;  // of the first numbers that differ in nothing else
   while (!rest_a.empty() && !rest_b.empty()) {
-    const Piece x = take_piece(rest_a, before_a, fractions), y = take_piece(rest_b, before_b, fractions);
+    const Piece x = take_piece(rest_a, before_a, fractions),
+                y = take_piece(rest_b, before_b, fractions);
     before_a = x.text.back();
     before_b = y.text.back();
     if (x.place() != y.place())
@@ -94,11 +97,12 @@ bool natural_less(std::string_view a, std::string_view b, bool fractions) {
 
 bool have_fractions(const std::vector<std::string>& names) {
   struct Group {
-    bool whole = false;              ///< a name has no decimals
-    std::set<std::string> wholes;    ///< of those with some
-    std::set<size_t> lengths;        ///< of their decimals
-    bool zeros = false;              ///< decimals end in one, as numbers of frames do
+    bool whole = false;            ///< a name has no decimals
+    std::set<std::string> wholes;  ///< of those with some
+    std::set<size_t> lengths;      ///< of their decimals
+    bool zeros = false;            ///< decimals end in one, as numbers of frames do
   };
+
   std::map<std::string, Group> groups;  // by what comes before the number
   for (const std::string& name : names) {
     const std::string stem = std::filesystem::path(name).replace_extension().string();
@@ -117,14 +121,16 @@ bool have_fractions(const std::vector<std::string>& names) {
   }
   return std::ranges::any_of(groups, [](const auto& entry) {
     const Group& g = entry.second;
-    return !g.wholes.empty() && (g.whole || (g.wholes.size() > 1 && g.lengths.size() > 1 && !g.zeros));
+    return !g.wholes.empty() &&
+           (g.whole || (g.wholes.size() > 1 && g.lengths.size() > 1 && !g.zeros));
   });
 }
 
 void sort_naturally(std::vector<std::string>& names) {
-  std::ranges::sort(names, [fractions = have_fractions(names)](const std::string& a, const std::string& b) {
-    return natural_less(a, b, fractions);
-  });
+  std::ranges::sort(
+      names, [fractions = have_fractions(names)](const std::string& a, const std::string& b) {
+        return natural_less(a, b, fractions);
+      });
 }
 
 }  // namespace anicodec::tools

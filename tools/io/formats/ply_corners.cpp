@@ -34,11 +34,15 @@ PlyCorners::PlyCorners(const PlyElement& faces) : track_of_(faces.properties.siz
                            is_colour ? ply_range(faces.properties[property].type) : 1};
   };
   if (const size_t uv = index_of("texcoord", true); uv != none) {
-    tracks_.push_back({.name = "wedge_uv", .kind = AttributeKind::kUv, .of_face = false, .components = 2});
+    tracks_.push_back(
+        {.name = "wedge_uv", .kind = AttributeKind::kUv, .of_face = false, .components = 2});
     take(uv, 0, false);
   }
   if (const size_t colour = index_of("color", true); colour != none) {
-    tracks_.push_back({.name = "wedge_colour", .kind = AttributeKind::kColour, .of_face = false, .components = 0});
+    tracks_.push_back({.name = "wedge_colour",
+                       .kind = AttributeKind::kColour,
+                       .of_face = false,
+                       .components = 0});
     take(colour, 0, true);
   }
   uint32_t channels = 0;
@@ -46,7 +50,10 @@ PlyCorners::PlyCorners(const PlyElement& faces) : track_of_(faces.properties.siz
     ++channels;
   if (channels < 3)
     return;
-  tracks_.push_back({.name = "face_colour", .kind = AttributeKind::kColour, .of_face = true, .components = channels});
+  tracks_.push_back({.name = "face_colour",
+                     .kind = AttributeKind::kColour,
+                     .of_face = true,
+                     .components = channels});
   for (uint32_t c = 0; c < channels; ++c)
     take(index_of(kFaceColour[c], false), c, true);
 }
@@ -66,7 +73,8 @@ void PlyCorners::end_face(size_t corners) {
   constexpr double kMost = std::numeric_limits<float>::max();
   for (Track& track : tracks_) {
     const size_t elements = track.of_face ? 1 : corners;
-    if (track.components == 0 && (track.face.size() == 3 * corners || track.face.size() == 4 * corners))
+    if (track.components == 0 &&
+        (track.face.size() == 3 * corners || track.face.size() == 4 * corners))
       track.components = static_cast<uint32_t>(track.face.size() / corners);
     if (track.face.empty()) {
       track.corners_before += track.components == 0 ? corners : 0;
@@ -99,7 +107,8 @@ std::vector<Attribute> PlyCorners::finish(const PlyElement& faces, LeftKinds* le
                      .values = std::move(track.values)});
   }
   for (size_t i = 0; i < faces.properties.size(); ++i) {
-    const bool taken = takes(i) && tracks_[track_of_[i].track].fits && tracks_[track_of_[i].track].components > 0;
+    const bool taken =
+        takes(i) && tracks_[track_of_[i].track].fits && tracks_[track_of_[i].track].components > 0;
     if (!taken && !is_polygon(faces.properties[i]))
       left_out->add("'" + printable(faces.properties[i].name) + "' of faces");
   }

@@ -26,7 +26,9 @@ class PlyCorners {
   explicit PlyCorners(const PlyElement& faces);
 
   /// Whether the values of a property are taken.
-  bool takes(size_t property) const { return property < track_of_.size() && track_of_[property].track != kNone; }
+  bool takes(size_t property) const {
+    return property < track_of_.size() && track_of_[property].track != kNone;
+  }
 
   /// Takes a value of a property of the face at hand.
   void add(size_t property, double value);
@@ -44,8 +46,8 @@ class PlyCorners {
   struct Track {
     const char* name;
     AttributeKind kind;
-    bool of_face;              ///< one element for all corners
-    uint32_t components;       ///< 0: not known yet, as the list of the first face says it
+    bool of_face;                   ///< one element for all corners
+    uint32_t components;            ///< 0: not known yet, as the list of the first face says it
     std::vector<double> face = {};  ///< values of the face at hand
     FrameArray values = {};         ///< of corners
     size_t corners_before = 0;      ///< of faces without values before the components are known

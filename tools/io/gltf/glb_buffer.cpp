@@ -49,8 +49,8 @@ struct PackedIndices {
 
 OrderedJson describe(std::span<const float> values, size_t components, bool bounds) {
   OrderedJson accessor{{"componentType", kFloat},
-                {"count", values.size() / components},
-                {"type", type_name(components)}};
+                       {"count", values.size() / components},
+                       {"type", type_name(components)}};
   if (!bounds)
     return accessor;
   std::vector<float> low(components, std::numeric_limits<float>::infinity());

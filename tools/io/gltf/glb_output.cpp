@@ -92,7 +92,8 @@ class GlbOutput::Writer {
     if (clip_.frame_count > 1)
       document["animations"] = animations(times);
     buffer_.describe_in(document);
-    return pack_glb(document.dump(-1, ' ', false, OrderedJson::error_handler_t::replace), buffer_.bytes());
+    return pack_glb(document.dump(-1, ' ', false, OrderedJson::error_handler_t::replace),
+                    buffer_.bytes());
   }
 
  private:
@@ -109,8 +110,9 @@ class GlbOutput::Writer {
       const size_t n = attribute.components;
       const std::string name = (attribute.kind == AttributeKind::kUv ? "TEXCOORD_" : "COLOR_") +
                                std::to_string(sets[attribute.kind]++);
-      std::vector<float> values = attribute.per_corner() ? vertices_.of_corners(attribute.values, n)
-                                                       : vertices_.of_vertices(attribute.values, n);
+      std::vector<float> values = attribute.per_corner()
+                                      ? vertices_.of_corners(attribute.values, n)
+                                      : vertices_.of_vertices(attribute.values, n);
       if (attribute.kind == AttributeKind::kUv) {  // glTF's v points down
         for (size_t i = 1; i < values.size(); i += 2)
           values[i] = 1 - values[i];
@@ -239,7 +241,7 @@ class GlbOutput::Writer {
   OrderedJson animations(std::span<const float> times) {
     if (clip_.clips.empty())
       return OrderedJson::array({animation(clip_.name, 0, {times.begin(), times.end()},
-                                    clip_.times.empty() ? &clip_.rate : nullptr)});
+                                           clip_.times.empty() ? &clip_.rate : nullptr)});
     OrderedJson result = OrderedJson::array();
     uint32_t first = 0;
     for (const ClipTiming& clip : clip_.clips) {
@@ -257,7 +259,7 @@ class GlbOutput::Writer {
   /// The weight of a frame is 1 at its time and 0 at those of all others. `input`: times of the frames
   /// from the first on. `rate`: null for uneven ones.
   OrderedJson animation(const std::string& name, uint32_t first, std::vector<float> input,
-                 const FrameRate* rate) {
+                        const FrameRate* rate) {
     const uint64_t frames = clip_.frame_count, own = input.size();
     const float begin = std::min(input[0], 0.0F);
     for (float& t : input)
@@ -267,8 +269,8 @@ class GlbOutput::Writer {
       elements.push_back(static_cast<uint32_t>(f * frames + first + f));
     const std::vector<float> ones(own, 1.0F);
     OrderedJson sampler{{"input", buffer_.add_floats(input, 1, GlbTarget::kNone, true)},
-                 {"interpolation", step_ ? "STEP" : "LINEAR"},
-                 {"output", buffer_.add_sparse(own * frames, elements, ones)}};
+                        {"interpolation", step_ ? "STEP" : "LINEAR"},
+                        {"output", buffer_.add_sparse(own * frames, elements, ones)}};
     OrderedJson animation{{"name", name}};
     animation["samplers"] = OrderedJson::array({std::move(sampler)});
     const size_t first_node = meshes_.size() > 1 ? 1 : 0;

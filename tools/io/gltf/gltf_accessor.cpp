@@ -27,10 +27,9 @@ float half_at(const char* bytes) {
   const int exponent = bits >> kBits & kMostExponent;
   const auto fraction = static_cast<float>(bits & ((1 << kBits) - 1));
   const float one = 1 << kBits;
-  const float magnitude =
-      exponent == kMostExponent ? std::numeric_limits<float>::infinity()
-      : exponent == 0           ? std::ldexp(fraction / one, 1 - kBias)
-                                : std::ldexp(1 + fraction / one, exponent - kBias);
+  const float magnitude = exponent == kMostExponent ? std::numeric_limits<float>::infinity()
+                          : exponent == 0           ? std::ldexp(fraction / one, 1 - kBias)
+                                          : std::ldexp(1 + fraction / one, exponent - kBias);
   return bits >> 15 != 0 ? -magnitude : magnitude;
 }
 

@@ -90,11 +90,10 @@ struct Placement {
 std::vector<Placement> placements_of(const GltfDocument& document, uint32_t n) {
   const GltfInstances& instances = *document.nodes[n].instances;
   const auto read = [&](uint32_t accessor, const char* name) {
-    return accessor == kGltfNone
-               ? std::vector<float>()
-               : read_floats(document, accessor,
-                             "/nodes/" + std::to_string(n) + "/extensions/" + kInstancingExtension +
-                                 "/attributes/" + name);
+    return accessor == kGltfNone ? std::vector<float>()
+                                 : read_floats(document, accessor,
+                                               "/nodes/" + std::to_string(n) + "/extensions/" +
+                                                   kInstancingExtension + "/attributes/" + name);
   };
   const std::vector<float> translations = read(instances.translations, "TRANSLATION"),
                            rotations = read(instances.rotations, "ROTATION"),
@@ -131,7 +130,7 @@ struct GltfBake::Piece {
   size_t primitive = 0;
   std::shared_ptr<const GltfGeometry> geometry;
   uint32_t first_vertex = 0;
-  bool owns_vertices = true;  ///< false: those of an earlier primitive of the node
+  bool owns_vertices = true;        ///< false: those of an earlier primitive of the node
   std::optional<Transform> placed;  ///< in the space of the node: an instance
   bool turned = false;              ///< the faces are turned over
   /// Shown while the node mirrors, or while it does not, so that the two of them show it at all times.
@@ -617,6 +616,7 @@ std::vector<uint32_t> GltfBake::needed_ticks(const GltfClip& clip, uint32_t tick
     std::vector<float> positions;
     std::vector<std::vector<double>> weights;
   };
+
   const GltfPose rest = pose_at_rest(document_);
   const auto sample = [&](uint32_t tick) {
     GltfPose pose = rest;
@@ -642,7 +642,8 @@ std::vector<uint32_t> GltfBake::needed_ticks(const GltfClip& clip, uint32_t tick
     for (size_t i = 0; i < at.positions.size(); ++i) {
       const auto x = static_cast<double>(a.positions[i]), y = static_cast<double>(b.positions[i]);
       const double rounding = 4e-7 * std::max(std::abs(x), std::abs(y));
-      if (!(std::abs(x + s * (y - x) - static_cast<double>(at.positions[i])) <= tolerance + rounding))
+      if (!(std::abs(x + s * (y - x) - static_cast<double>(at.positions[i])) <=
+            tolerance + rounding))
         return false;
     }
     for (size_t n = 0; n < at.weights.size(); ++n) {

@@ -647,8 +647,8 @@ class Reader {
                    (is_mesh ? "mesh" : "node"));
     path.assign(last + 1, end);
     if (path.starts_with(kWeights)) {
-      const auto [after, fault] = std::from_chars(path.data() + kWeights.size(),
-                                                  path.data() + path.size(), element);
+      const auto [after, fault] =
+          std::from_chars(path.data() + kWeights.size(), path.data() + path.size(), element);
       if (fault != std::errc() || after != path.data() + path.size())
         pointer.fail("'" + shown(text) + "' leads to no weight");
       path = "weights";

@@ -26,7 +26,7 @@ inline constexpr uint32_t kGltfNone = UINT32_MAX;  ///< an index that is not giv
 
 // Extensions by which views and primitives are compressed.
 inline constexpr const char* kMeshoptExtensions[] = {"KHR_meshopt_compression",
-                                                    "EXT_meshopt_compression"};
+                                                     "EXT_meshopt_compression"};
 inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
 
 inline constexpr const char* kInstancingExtension = "EXT_mesh_gpu_instancing";
@@ -144,7 +144,7 @@ struct GltfAnimation {
   std::vector<GltfSampler> samplers;
   std::vector<GltfChannel> channels;
   std::vector<NamedTime> events;  ///< of extras
-  std::string rate;  ///< "24/1" of a clip that anicodec wrote, else empty
+  std::string rate;               ///< "24/1" of a clip that anicodec wrote, else empty
 };
 
 /// Nodes form trees. Views point into the buffers, so that a document can be moved only.
@@ -164,8 +164,8 @@ struct GltfDocument {
   std::vector<GltfSkin> skins;
   std::vector<GltfAnimation> animations;
   std::vector<GltfMaterial> materials;
-  std::vector<GltfImage> images;      ///< empty where they are files of their own
-  LeftKinds left_out;                 ///< what a scene has and a clip does not keep
+  std::vector<GltfImage> images;  ///< empty where they are files of their own
+  LeftKinds left_out;             ///< what a scene has and a clip does not keep
 };
 
 /// Gives the bytes of a file that a document names by a relative URI. Throws Error(kInput).

@@ -46,8 +46,8 @@ struct Seen {
   void add_cubic(const Scale& a, const Scale& leave, const Scale& arrive, const Scale& b,
                  double length) {
     for (size_t i = 0; i < 3; ++i) {
-      const auto [least, most] = std::minmax(
-          {a[i], a[i] + leave[i] * length / 3, b[i] - arrive[i] * length / 3, b[i]});
+      const auto [least, most] =
+          std::minmax({a[i], a[i] + leave[i] * length / 3, b[i] - arrive[i] * length / 3, b[i]});
       if (least < 0 && most > 0)
         kept = turned = true;
     }
@@ -112,10 +112,10 @@ void find_facings(GltfDocument* document) {
     const GltfAnimation& animation = document->animations[a];
     for (const GltfChannel& channel : animation.channels) {
       if (channel.path == GltfPath::kScale)
-        add_keys(*document, animation.samplers[channel.sampler],
-                 "/animations/" + std::to_string(a) + "/samplers/" +
-                     std::to_string(channel.sampler),
-                 &seen[channel.node]);
+        add_keys(
+            *document, animation.samplers[channel.sampler],
+            "/animations/" + std::to_string(a) + "/samplers/" + std::to_string(channel.sampler),
+            &seen[channel.node]);
     }
   }
   std::vector<uint32_t> open;
@@ -127,9 +127,9 @@ void find_facings(GltfDocument* document) {
     const uint32_t n = open.back();
     open.pop_back();
     GltfNode& node = document->nodes[n];
-    node.facing = with_parent(node.parent == kGltfNone ? GltfFacing::kKept
-                                                       : document->nodes[node.parent].facing,
-                              seen[n]);
+    node.facing = with_parent(
+        node.parent == kGltfNone ? GltfFacing::kKept : document->nodes[node.parent].facing,
+        seen[n]);
     open.insert(open.end(), node.children.begin(), node.children.end());
   }
 }

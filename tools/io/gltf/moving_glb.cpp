@@ -362,8 +362,9 @@ class MovingGlb {
       document_["animations"] = std::move(kept);
     if (left_out > 0)
       note(std::to_string(left_out) +
-           (left_out == 1 ? " animation channel is in the clip or moves nothing, and is left out"
-                          : " animation channels are in the clip or move nothing, and are left out"));
+           (left_out == 1
+                ? " animation channel is in the clip or moves nothing, and is left out"
+                : " animation channels are in the clip or move nothing, and are left out"));
   }
 
   bool is_of_use(Json& target, const std::vector<bool>& used) {

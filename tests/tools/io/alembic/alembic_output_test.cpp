@@ -30,7 +30,8 @@ MeshSequence painted_strip(uint32_t frames) {
     s.polygons.add(std::vector<uint32_t>{v, v + 1, v + 3, v + 2});
   for (uint32_t i = 0; i < frames * 30; ++i)
     s.positions.push_back(static_cast<float>((i * 37) % 101) / 7.0F);
-  Attribute uv{.kind = AttributeKind::kUv, .name = "map1", .domain = AttributeDomain::kCorner, .values = {}};
+  Attribute uv{
+      .kind = AttributeKind::kUv, .name = "map1", .domain = AttributeDomain::kCorner, .values = {}};
   for (uint32_t c = 0; c < 32; ++c)
     uv.values.push_back(static_cast<float>(c % 5) / 4.0F);
   Attribute second{.kind = AttributeKind::kUv, .name = "map2", .values = {}};
@@ -88,9 +89,12 @@ TEST(AlembicOutput, ReadsBackExactly) {
 
 TEST(AlembicOutput, ReadsBackWithinAMemoryThatAttributesShare) {
   const std::string bytes = archive_of_scene(scene_of(painted_strip(50)));
-  constexpr uint64_t kPositions = uint64_t{12} * 10 * 50, kStill = 4 * (64 + 20 + 40), kHeat = uint64_t{4} * 10 * 50;
-  EXPECT_EQ(read_bytes_of_archive(bytes, {.memory_limit = kPositions + kStill + kHeat}).frame_count, 50U);
-  EXPECT_THAT(fault([&] { read_bytes_of_archive(bytes, {.memory_limit = kPositions + kHeat - 1}); }, ErrorKind::kInput),
+  constexpr uint64_t kPositions = uint64_t{12} * 10 * 50, kStill = 4 * (64 + 20 + 40),
+                     kHeat = uint64_t{4} * 10 * 50;
+  EXPECT_EQ(read_bytes_of_archive(bytes, {.memory_limit = kPositions + kStill + kHeat}).frame_count,
+            50U);
+  EXPECT_THAT(fault([&] { read_bytes_of_archive(bytes, {.memory_limit = kPositions + kHeat - 1}); },
+                    ErrorKind::kInput),
               testing::HasSubstr("attributes that move take more memory"));
 }
 

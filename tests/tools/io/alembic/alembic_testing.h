@@ -66,8 +66,9 @@ inline std::string archive_of_scene(const Scene& scene, bool normals = false) {
 }
 
 /// An archive with the samplings of another one, and what `write` puts into it.
-inline std::string rewritten(const std::string& archive,
-                             const std::function<void(const AbcArchive& from, AbcArchiveOutput& to)>& write) {
+inline std::string rewritten(
+    const std::string& archive,
+    const std::function<void(const AbcArchive& from, AbcArchiveOutput& to)>& write) {
   const AbcArchive from(memory_source(archive, "plain.abc"));
   std::string bytes;
   AbcArchiveOutput to(sink_to(bytes), from.metadata);
@@ -95,8 +96,8 @@ inline Scene scene_of(MeshSequence clip) {
 /// Changes the bytes of a sample that is copied.
 using ChangeSample = std::function<void(const AbcProperty& property, std::string& bytes)>;
 
-inline void copy_properties(const AbcArchive& from, const AbcCompound& compound, const ChangeSample& change,
-                            AbcCompoundOutput& to) {
+inline void copy_properties(const AbcArchive& from, const AbcCompound& compound,
+                            const ChangeSample& change, AbcCompoundOutput& to) {
   for (const AbcProperty& p : compound.properties) {
     if (p.shape == AbcShape::kCompound) {
       copy_properties(from, from.properties(p), change, to.compound(p.name, p.metadata));
@@ -120,7 +121,8 @@ inline void copy_object(const AbcArchive& from, uint32_t object, AbcObjectOutput
                         const ChangeSample& change = {}) {
   copy_properties(from, from.properties(from.objects[object]), change, to.properties());
   for (uint32_t child : from.objects[object].children)
-    copy_object(from, child, to.child(from.objects[child].name, from.objects[child].metadata), change);
+    copy_object(from, child, to.child(from.objects[child].name, from.objects[child].metadata),
+                change);
 }
 
 inline MeshSequence read_bytes_of_archive(const std::string& bytes,

@@ -34,19 +34,22 @@ TEST(AlembicMirror, AtSomeTimesIsASecondMesh) {
   clip.vertex_count = 4;
   clip.frame_count = 1;
   clip.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-  for (const std::vector<uint32_t>& face : {std::vector<uint32_t>{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}})
+  for (const std::vector<uint32_t>& face :
+       {std::vector<uint32_t>{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}})
     clip.polygons.add(face);
-  const std::string bytes = rewritten(archive_of_scene(scene_of(clip)), [](const AbcArchive& from, AbcArchiveOutput& to) {
-    const uint32_t frames = to.shared().sampling({1.0 / 24, {0}});
-    AbcObjectOutput& flip = to.top().child("flip", "schema=AbcGeom_Xform_v3;schemaObjTitle=AbcGeom_Xform_v3:.xform");
-    AbcCompoundOutput& xform = flip.properties().compound(".xform", "schema=AbcGeom_Xform_v3");
-    xform.scalar(".inherits", "", AbcType::kBool, 1, 0).add_one(uint8_t{1});
-    xform.scalar(".ops", "", AbcType::kUint8, 1, 0).add_one(uint8_t{0});  // scale
-    AbcPropertyOutput& values = xform.scalar(".vals", "", AbcType::kFloat64, 3, frames);
-    for (const double x : {-2.0, 0.0, 2.0, 0.0, -2.0})
-      values.add(std::span<const double>(std::array{x, 1.0, 1.0}));
-    copy_object(from, 0, flip, [](const AbcProperty&, std::string&) {});
-  });
+  const std::string bytes =
+      rewritten(archive_of_scene(scene_of(clip)), [](const AbcArchive& from, AbcArchiveOutput& to) {
+        const uint32_t frames = to.shared().sampling({1.0 / 24, {0}});
+        AbcObjectOutput& flip = to.top().child(
+            "flip", "schema=AbcGeom_Xform_v3;schemaObjTitle=AbcGeom_Xform_v3:.xform");
+        AbcCompoundOutput& xform = flip.properties().compound(".xform", "schema=AbcGeom_Xform_v3");
+        xform.scalar(".inherits", "", AbcType::kBool, 1, 0).add_one(uint8_t{1});
+        xform.scalar(".ops", "", AbcType::kUint8, 1, 0).add_one(uint8_t{0});  // scale
+        AbcPropertyOutput& values = xform.scalar(".vals", "", AbcType::kFloat64, 3, frames);
+        for (const double x : {-2.0, 0.0, 2.0, 0.0, -2.0})
+          values.add(std::span<const double>(std::array{x, 1.0, 1.0}));
+        copy_object(from, 0, flip, [](const AbcProperty&, std::string&) {});
+      });
   const MeshSequence read = read_bytes_of_archive(bytes);
   ASSERT_EQ(read.frame_count, 5U);
   ASSERT_EQ(read.polygons.size(), 8U);

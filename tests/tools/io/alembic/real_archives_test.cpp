@@ -159,7 +159,8 @@ void check_samples(const AbcArchive& archive, AbcMesh& mesh, const Json& expecte
     if (param["interpretation"] == "rgb")
       check_param(mesh, AttributeKind::kColour, param, first, start, "sha256_first", hashes);
   }
-  const PolygonLabels sets = mesh.face_sets(first, start.polygons.size(), [](const std::string&) {});
+  const PolygonLabels sets =
+      mesh.face_sets(first, start.polygons.size(), [](const std::string&) {});
   ASSERT_EQ(sets.names.size(), expected["face_sets"].size());
   for (uint32_t i = 0; i < sets.names.size(); ++i) {
     EXPECT_EQ(sets.names[i], expected["face_sets"][i]["name"]);

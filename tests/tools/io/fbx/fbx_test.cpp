@@ -208,11 +208,12 @@ TEST_F(FbxFile, NamesWhatItHoldsBesideMeshesAndTheirMotion) {
   const int mesh = fbx.node("a", "P: \"mark\", \"double\", \"Number\", \"AU\",1\n");
   for (const auto& [kind, owner] : {std::pair("Camera", "eye"), {"Light", "lamp"}}) {
     const int attribute = fbx.id(), node = fbx.node(owner, "", 0, false);
-    fbx.object("NodeAttribute: " + std::to_string(attribute) + ", \"NodeAttribute::x\", \"" + kind + "\" {\nTypeFlags: \"" +
-               kind + "\"\n}\n");
+    fbx.object("NodeAttribute: " + std::to_string(attribute) + ", \"NodeAttribute::x\", \"" + kind +
+               "\" {\nTypeFlags: \"" + kind + "\"\n}\n");
     fbx.connect(attribute, node);
   }
-  fbx.object("Constraint: " + std::to_string(fbx.id()) + ", \"Constraint::c\", \"Aim\" {\nType: \"Aim\"\n}\n");
+  fbx.object("Constraint: " + std::to_string(fbx.id()) +
+             ", \"Constraint::c\", \"Aim\" {\nType: \"Aim\"\n}\n");
   EXPECT_GT(mesh, 0);
   load(fbx);
   EXPECT_THAT(notes_, HasSubstr("not kept: 1 camera, 1 constraint, 1 light, custom properties\n"));
@@ -220,11 +221,14 @@ TEST_F(FbxFile, NamesWhatItHoldsBesideMeshesAndTheirMotion) {
 
 TEST_F(FbxFile, HasTheMeshesOfAllTakesInEach) {
   Fbx fbx;
-  const int plain = fbx.node("a"), turned = fbx.node("b", fbx.property("Lcl Translation", {5, 0, 0}));
+  const int plain = fbx.node("a"),
+            turned = fbx.node("b", fbx.property("Lcl Translation", {5, 0, 0}));
   fbx.take("walk", 0, 1);
-  fbx.move(plain, "Lcl Translation", {{{0, 0}, {1, 1}}, {{0, 0}, {1, 0}}, {{0, 0}, {1, 0}}}, kLinear);
+  fbx.move(plain, "Lcl Translation", {{{0, 0}, {1, 1}}, {{0, 0}, {1, 0}}, {{0, 0}, {1, 0}}},
+           kLinear);
   fbx.take("flip", 0, 1);
-  fbx.move(turned, "Lcl Scaling", {{{0, 1}, {0.5, -1}, {1, -1}}, {{0, 1}, {1, 1}}, {{0, 1}, {1, 1}}}, kStepped);
+  fbx.move(turned, "Lcl Scaling",
+           {{{0, 1}, {0.5, -1}, {1, -1}}, {{0, 1}, {1, 1}}, {{0, 1}, {1, 1}}}, kStepped);
   LoadOptions options;
   options.takes = true;
   const MeshSequence clip = load(fbx, options);

@@ -26,8 +26,8 @@ std::vector<std::string> sorted(std::vector<std::string> names) {
 }
 
 TEST(NaturalOrder, CountsBelowZero) {
-  const std::vector<std::string> names = {"sim.-0010.obj", "sim.-0009.obj", "sim.0000.obj", "sim.0001.obj",
-                                          "sim.0010.obj"};
+  const std::vector<std::string> names = {"sim.-0010.obj", "sim.-0009.obj", "sim.0000.obj",
+                                          "sim.0001.obj", "sim.0010.obj"};
   EXPECT_EQ(sorted(names), names);
   const std::vector<std::string> dashes = {"walk-1.obj", "walk-2.obj", "walk-10.obj"};  // no signs
   EXPECT_EQ(sorted(dashes), dashes);
@@ -35,7 +35,8 @@ TEST(NaturalOrder, CountsBelowZero) {
 
 TEST(NaturalOrder, CountsPartsOfFrames) {
   for (const std::vector<std::string>& names :
-       {std::vector<std::string>{"sim.1.obj", "sim.1.25.obj", "sim.1.5.obj", "sim.1.75.obj", "sim.2.obj"},
+       {std::vector<std::string>{"sim.1.obj", "sim.1.25.obj", "sim.1.5.obj", "sim.1.75.obj",
+                                 "sim.2.obj"},
         {"sim.-1.5.obj", "sim.-1.obj", "sim.-0.5.obj", "sim.0.obj", "sim.0.5.obj"},
         {"f_1.25.obj", "f_1.5.obj", "f_2.125.obj", "f_2.5.obj"},
         {"take.1.9.obj", "take.1.10.obj", "take.1.100.obj"},

@@ -61,25 +61,26 @@ TEST(ObjDetails, GroupFacesByObjectAndMaterial) {
 
 TEST(Obj, ReadsAllFormsOfFaces) {
   Mesh mesh = parse_obj_text(std::string(kThreeVertices) +
-                    "vt 0 0\nvn 0 0 1\nf 1 2 3\nf 1/1 2/1 3/1\nf 1//1 2//1 3//1\n"
-                    "f 1/1/1 2/1/1 3/1/1\nf -3 -2 -1\nf -1/-1/-1 -2/-1/-1 -3/-1/-1\n");
+                             "vt 0 0\nvn 0 0 1\nf 1 2 3\nf 1/1 2/1 3/1\nf 1//1 2//1 3//1\n"
+                             "f 1/1/1 2/1/1 3/1/1\nf -3 -2 -1\nf -1/-1/-1 -2/-1/-1 -3/-1/-1\n");
   EXPECT_EQ(mesh.polygons.size(), 6U);
   EXPECT_THAT(mesh.polygons[4], ElementsAre(0, 1, 2));
   EXPECT_THAT(mesh.polygons[5], ElementsAre(2, 1, 0));
 }
 
 TEST(Obj, SkipsOtherStatementsByName) {
-  Mesh mesh =
-      parse_obj_text(std::string(kThreeVertices) +
-            "mtllib a b.mtl\nusemtl m\no name\ng a b\ns off\nl 1 2\np 1\n"
-            "cstype bspline\ndeg 3\nvp 0 1\ncurv 0 1 1 2\nparm u 0 1\nend\nf 1 2 3 # tail\n");
+  Mesh mesh = parse_obj_text(
+      std::string(kThreeVertices) +
+      "mtllib a b.mtl\nusemtl m\no name\ng a b\ns off\nl 1 2\np 1\n"
+      "cstype bspline\ndeg 3\nvp 0 1\ncurv 0 1 1 2\nparm u 0 1\nend\nf 1 2 3 # tail\n");
   EXPECT_EQ(mesh.polygons.size(), 1U);
 }
 
 TEST(Obj, ReadsAllLineEndsAndContinuations) {
   for (std::string end : {"\n", "\r\n", "\r"}) {
-    Mesh mesh = parse_obj_text("# c:\\" + end + "v 0 0 \\" + end + " 0" + end + end + "v\t1 0 0  " + end +
-                      "v +0 1e0 0" + end + "g a \\" + end + "b" + end + "f 1 2\\" + end + "3");
+    Mesh mesh =
+        parse_obj_text("# c:\\" + end + "v 0 0 \\" + end + " 0" + end + end + "v\t1 0 0  " + end +
+                       "v +0 1e0 0" + end + "g a \\" + end + "b" + end + "f 1 2\\" + end + "3");
     EXPECT_EQ(mesh.vertex_count(), 3U);
     EXPECT_EQ(mesh.positions[7], 1.0F);
     ASSERT_EQ(mesh.polygons.size(), 1U);

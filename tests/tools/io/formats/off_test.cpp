@@ -41,10 +41,12 @@ TEST(Off, ReadsHeaderVariants) {
   std::string face = "3 0 1 2\n";
   EXPECT_EQ(parse_off_text("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n" + face).polygons.size(), 1U);
   EXPECT_EQ(parse_off_text("OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n" + face).polygons.size(), 1U);
-  EXPECT_EQ(parse_off_text("COFF\n3 1 0\n0 0 0 255 0 0\n1 0 0 255 0 0 1\n0 1 0 7\n" + face).vertex_count(),
+  EXPECT_EQ(parse_off_text("COFF\n3 1 0\n0 0 0 255 0 0\n1 0 0 255 0 0 1\n0 1 0 7\n" + face)
+                .vertex_count(),
             3U);
-  EXPECT_EQ(parse_off_text("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n" + face).vertex_count(),
-            3U);
+  EXPECT_EQ(
+      parse_off_text("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n" + face).vertex_count(),
+      3U);
   EXPECT_EQ(parse_off_text("STCNOFF\n1 0 0\n0 0 0 0 0 1 1 1 1 1 0 0\n").vertex_count(), 1U);
 }
 

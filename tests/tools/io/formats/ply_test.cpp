@@ -151,7 +151,8 @@ TEST(Ply, RejectsBadAsciiBodiesNamingTheLine) {
             "a.ply:11: unexpected '9'");
   EXPECT_EQ(ply_fault(ascii_ply(kThreeLines, "")),
             "a.ply:13: the file ends after 0 of 1 elements 'face'");
-  EXPECT_THAT(ply_fault(ascii_ply(kThreeLines, "3 0 1 2\n7\n")), HasSubstr("a.ply:14: unexpected '7'"));
+  EXPECT_THAT(ply_fault(ascii_ply(kThreeLines, "3 0 1 2\n7\n")),
+              HasSubstr("a.ply:14: unexpected '7'"));
   EXPECT_THAT(ply_fault(ascii_ply(kThreeLines, "2 0 1\n")), HasSubstr("a face of 2 corners"));
   EXPECT_THAT(ply_fault(ascii_ply(kThreeLines, "3 0 1 1.5\n")), HasSubstr("unexpected '.5'"));
 }

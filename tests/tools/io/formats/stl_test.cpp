@@ -57,7 +57,8 @@ TEST(Stl, WritesPolygonsAsFans) {
   std::string bytes;
   append_stl(quad, fan().positions, false, bytes);
   EXPECT_EQ(bytes.size(), 84U + 2 * 50);
-  EXPECT_THAT(StlWeld(parse_stl_bytes(bytes), "", true).polygons().corners, ElementsAre(0, 1, 2, 0, 2, 3));
+  EXPECT_THAT(StlWeld(parse_stl_bytes(bytes), "", true).polygons().corners,
+              ElementsAre(0, 1, 2, 0, 2, 3));
 }
 
 TEST(Stl, KeepsEveryCornerWithoutWelding) {

@@ -8,8 +8,8 @@
 #include "tests/tools/gltf_testing.h"
 #include "tests/tools/io_testing.h"
 #include "tools/io/files/byte_source.h"
-#include "tools/io/gltf/gltf.h"
 #include "tools/io/gltf/glb_output.h"
+#include "tools/io/gltf/gltf.h"
 
 #include <algorithm>
 #include <array>
@@ -46,7 +46,8 @@ GltfOptions once_a_second() {
 
 void point_at(GltfScene& scene, const std::string& pointer) {
   json& target = scene.document["animations"][0]["channels"][0]["target"];
-  target = {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
+  target = {{"path", "pointer"},
+            {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
 }
 
 /// Two nodes that show a triangle with two targets: x of vertex 0 by 1, y of vertex 1 by 2.
@@ -78,7 +79,8 @@ TEST(GltfExtensions, PointersMoveTheWeightsOfAMeshAndSingleOnes) {
   EXPECT_THAT(baked(scene, once_a_second()).frame(1),
               ElementsAre(1, 0, 0, 1, 0, 0, 0, 1, 0, 10, 0, 0, 10, 0, 0, 9, 1, 0));
   for (const auto& [pointer, reason] :
-       {std::pair("/nodes/0/weights/2", "animates weight 2 of node 0, whose mesh has 2 morph targets"),
+       {std::pair("/nodes/0/weights/2",
+                  "animates weight 2 of node 0, whose mesh has 2 morph targets"),
         {"/nodes/0/weights/x", "leads to no weight"},
         {"/meshes/4/weights", "leads to no property of a mesh"}}) {
     point_at(scene, pointer);
@@ -158,7 +160,8 @@ TEST(GltfExtensions, PrimitivesWhoseMaterialsMoveCoordinatesDifferentlyShareNoVe
   primitives.push_back(primitives[0]);
   primitives[0]["material"] = 0;
   primitives[1]["material"] = 1;
-  EXPECT_THAT(baked(scene).attributes.at(0).values, ElementsAre(1, 1, 2, 1, 1, 0, 2, 1, 3, 1, 2, 0));
+  EXPECT_THAT(baked(scene).attributes.at(0).values,
+              ElementsAre(1, 1, 2, 1, 1, 0, 2, 1, 3, 1, 2, 0));
   primitives[1]["material"] = 0;
   EXPECT_EQ(baked(scene).vertex_count, 3U);
 }
@@ -186,7 +189,8 @@ TEST(GltfExtensions, MeshoptCompressionOfKhronosIsRead) {
     const float x = std::round(flat[0]), y = std::round(flat[1]);
     places.emplace(static_cast<int>(x), static_cast<int>(y));
     EXPECT_THAT(std::span(flat, 3), Pointwise(FloatNear(1e-3F), std::vector<float>{x, y, 0.0F}));
-    EXPECT_THAT(std::span(lifted, 3), Pointwise(FloatNear(1e-3F), std::vector<float>{x, y, x * y / 4}));
+    EXPECT_THAT(std::span(lifted, 3),
+                Pointwise(FloatNear(1e-3F), std::vector<float>{x, y, x * y / 4}));
     EXPECT_THAT(std::span(colours.values).subspan(4 * v, 4),
                 Pointwise(FloatNear(0.01F), std::vector<float>{x / 4, y / 4, 1.0F, 1.0F}));
     EXPECT_THAT(std::span(normals.values).subspan(3 * v, 3),
@@ -211,8 +215,7 @@ TEST(GltfExtensions, NodesWithoutNamesArePartsWhereThereAreSeveral) {
 
 TEST(GltfExtensions, FacesOfWhatHasNoNormalsAreFlat) {
   GltfScene scene = triangle_scene();
-  scene.primitive()["attributes"]["POSITION"] =
-      scene.vectors({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
+  scene.primitive()["attributes"]["POSITION"] = scene.vectors({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
   scene.primitive()["indices"] = scene.indices({0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3});
   const MeshSequence flat = baked(scene);
   ASSERT_EQ(flat.shared_normals.size(), 12U);
@@ -234,8 +237,7 @@ TEST(GltfExtensions, FacesOfWhatHasNoNormalsAreFlat) {
   // Beside it a smooth one.
   json& primitives = scene.document["meshes"][0]["primitives"];
   primitives.push_back(primitives[0]);
-  primitives[1]["attributes"]["NORMAL"] =
-      scene.vectors({-1, -1, -1, 1, 0, 0, 0, 1, 0, 0, 0, 1});
+  primitives[1]["attributes"]["NORMAL"] = scene.vectors({-1, -1, -1, 1, 0, 0, 0, 1, 0, 0, 0, 1});
   const MeshSequence both = baked(scene);
   ASSERT_EQ(both.shared_normals.size(), 24U);
   std::set<std::pair<uint32_t, uint32_t>> normals;  // vertex, number

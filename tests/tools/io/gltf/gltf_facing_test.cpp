@@ -16,8 +16,8 @@ namespace anicodec::tools {
 namespace {
 
 using nlohmann::json;
-using testing::ElementsAre;
 using testing::Each;
+using testing::ElementsAre;
 
 Eigen::Vector3d place(const MeshSequence& s, uint32_t frame, uint32_t vertex) {
   return Eigen::Map<const Eigen::Vector3f>(s.frame(frame).data() + 3 * vertex).cast<double>();
@@ -46,8 +46,7 @@ MeshSequence read(const GltfScene& scene, const GltfOptions& options = {.rate = 
 /// A tetrahedron of volume 1/6, shown by node 0 below node 1, which is at (2 0 0).
 GltfScene tetrahedron() {
   GltfScene scene = triangle_scene();
-  scene.primitive()["attributes"]["POSITION"] =
-      scene.vectors({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
+  scene.primitive()["attributes"]["POSITION"] = scene.vectors({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
   scene.primitive()["indices"] = scene.indices({0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3});
   scene.document["nodes"].push_back(
       {{"name", "parent"}, {"children", {0}}, {"translation", {2, 0, 0}}});
@@ -85,7 +84,8 @@ TEST(GltfFacing, NormalsAndTangentsStayOutside) {
   EXPECT_THAT(std::span(s.attributes[0].values).subspan(0, 3), ElementsAre(0, 0, 1));
   // The bitangent of a mirrored node is (0 1 0) as before: the normal x (-1 0 0) is (0 -1 0).
   EXPECT_THAT(std::span(s.attributes[1].values).subspan(0, 4), ElementsAre(-1, 0, 0, -1));
-  const Eigen::Vector3d a = place(s, 0, s.polygons.corners[0]), b = place(s, 0, s.polygons.corners[1]),
+  const Eigen::Vector3d a = place(s, 0, s.polygons.corners[0]),
+                        b = place(s, 0, s.polygons.corners[1]),
                         c = place(s, 0, s.polygons.corners[2]);
   EXPECT_GT((b - a).cross(c - a).z(), 0) << "towards the normals";
 }
@@ -93,7 +93,8 @@ TEST(GltfFacing, NormalsAndTangentsStayOutside) {
 TEST(GltfFacing, ANodeThatMirrorsAtSomeTimesTurnsItsFacesThen) {
   for (const char* interpolation : {"STEP", "LINEAR"}) {
     GltfScene scene = tetrahedron();
-    scene.animate(1, "scale", {0, 1, 2}, scene.vectors({1, 1, 1, -1, 1, 1, -1, 2, 1}), interpolation);
+    scene.animate(1, "scale", {0, 1, 2}, scene.vectors({1, 1, 1, -1, 1, 1, -1, 2, 1}),
+                  interpolation);
     const MeshSequence s = read(scene, {.rate = FrameRate{3, 1}});
     for (uint32_t f = 0; f < s.frame_count; ++f) {
       const double t = f / 3.0;
@@ -115,7 +116,8 @@ TEST(GltfFacing, ACubicSplineThatOvershootsMirrorsToo) {
   GltfScene scene = tetrahedron();
   // In-tangent, value, out-tangent of each key: the values are positive, the way between them is not.
   scene.animate(1, "scale", {0, 1},
-                scene.vectors({0, 0, 0, 1, 1, 1, -9, 0, 0, 9, 0, 0, 1, 1, 1, 0, 0, 0}), "CUBICSPLINE");
+                scene.vectors({0, 0, 0, 1, 1, 1, -9, 0, 0, 9, 0, 0, 1, 1, 1, 0, 0, 0}),
+                "CUBICSPLINE");
   const MeshSequence s = read(scene);
   // By the Hermite form at 1/2: 1/2 + 1/2 - 9/8 - 9/8, of the second surface.
   ASSERT_EQ(s.vertex_count, 8U);
@@ -151,7 +153,8 @@ TEST(GltfFacing, EveryInstanceHasItsPlaceAndItsFacing) {
   scene.document["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
   nodes[1]["scale"] = {1, -1, 1};
   EXPECT_NEAR(volume(read(scene), 0), (1 + 1 + 8) * kVolume, 10 * kRounding);
-  nodes[0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["ROTATION"] = scene.quads({0, 0, 0, 1});
+  nodes[0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["ROTATION"] =
+      scene.quads({0, 0, 0, 1});
   EXPECT_THROW(read(scene), std::exception);
 }
 
@@ -159,7 +162,8 @@ TEST(GltfFacing, AMovingGlbHasTheTurnedFaces) {
   GltfScene scene = tetrahedron();
   scene.document["nodes"][1]["scale"] = {-1, 1, 1};
   scene.document["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
-      {"TRANSLATION", scene.vectors({0, 0, 0, 5, 0, 0})}, {"SCALE", scene.vectors({1, 1, 1, 1, -1, 1})}};
+      {"TRANSLATION", scene.vectors({0, 0, 0, 5, 0, 0})},
+      {"SCALE", scene.vectors({1, 1, 1, 1, -1, 1})}};
   scene.document["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
   const MeshSequence s = read(scene);
   const StillSurface still{{s.positions.begin(), s.positions.end()}, {}};

@@ -576,10 +576,9 @@ TEST(GltfFaults, NameWhatHasTheWrongType) {
 TEST(GltfFaults, AreUnsupportedForUnknownRequiredExtensions) {
   GltfScene scene = triangle_scene();
   scene.document["extensionsRequired"] = {"KHR_mesh_quantization", "ACME_ripples"};
-  EXPECT_EQ(
-      fault([&] { parse(scene); }, ErrorKind::kUnsupported),
-      "a.glb: /extensionsRequired/1: extension 'ACME_ripples' is required, but not "
-      "known");
+  EXPECT_EQ(fault([&] { parse(scene); }, ErrorKind::kUnsupported),
+            "a.glb: /extensionsRequired/1: extension 'ACME_ripples' is required, but not "
+            "known");
 }
 
 TEST(GltfFaults, TellDamagedContainers) {
@@ -679,7 +678,8 @@ GltfScene large_scene(size_t count) {
       count, nlohmann::json::object({{"POSITION", primitive["attributes"]["POSITION"]}}));
   scene.document["meshes"].push_back({{"primitives", nlohmann::json::array({morphed})}});
   nodes.push_back({{"mesh", 1}});
-  scene.document["scenes"] = nlohmann::json::array({{{"nodes", nlohmann::json::array({0, count})}}});
+  scene.document["scenes"] =
+      nlohmann::json::array({{{"nodes", nlohmann::json::array({0, count})}}});
   scene.document["scene"] = 0;
   return scene;
 }
