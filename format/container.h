@@ -99,8 +99,8 @@ class ContainerReader {
   /// The same for a file of a live stream, a continuation perhaps: bytes of the next one may follow.
   Failure open_of_stream(ByteView bytes) { return open(bytes, Extent::kOfStream); }
 
-  /// Makes an opened continuation the file that it is with the chunks of the meshes of the file before it: `bytes` are
-  /// those of that file, in full, and behind them those of this one.
+  /// Adds the mesh chunks of the file before to an opened continuation, so that it is a complete
+  /// file. `bytes`: the file before, followed by this one.
   void add_meshes(const ContainerReader& before, ByteView bytes);
 
   /// After open_prefix() or open_of_stream(): more of the same bytes are there, in another place perhaps.
@@ -146,7 +146,8 @@ class ContainerReader {
   bool is_complete() const { return file_.size >= file_size_; }
 
  private:
-  /// What the bytes are: a file, the first bytes of one, or those of a stream from a file's first one on.
+  /// The extent of the bytes: a file, the first bytes of a file, or the bytes of a stream from the
+  /// start of one of its files.
   enum class Extent : uint8_t { kWhole, kPrefix, kOfStream };
 
   Failure open(ByteView file, Extent extent);

@@ -113,7 +113,7 @@ struct Limits {
   /// The features that a file of such segments needs, as bits of the header (spec/13-extending.md).
   uint64_t features() const;
 
-  /// Numbers of the segments, ascending by first frame among those of one mesh, or attribute of it.
+  /// Numbers of the segments of each mesh, or of each attribute of it, ascending by first frame.
   /// The meshes come first, then the attributes, both ascending. O(segments log segments).
   Vector<uint32_t> segments_by_frame() const;
 

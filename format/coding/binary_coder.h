@@ -198,7 +198,7 @@ class BinaryDecoder {
   /// would otherwise go on for long.
   bool ok() const { return !failed_; }
 
-  /// What no encoder writes was read.
+  /// Marks the stream as damaged: no encoder writes the bits just read.
   void fail() { failed_ = true; }
 
   /// True if the stream is exactly what an encoder writes for what was decoded: nothing missing,

@@ -210,7 +210,7 @@ int32_t TimeWeightModel::State::code_value(Coder& coder, double x, double lambda
   return code(coder, q);
 }
 
-/// What the signs of the channels before tell of that of the value at `index`.
+/// Predicts the sign of the value at `index` from the signs of the channels before it.
 int32_t TimeWeightModel::State::evidence(size_t index, uint32_t c) const {
   int32_t sum = 0;
   for (uint32_t e = 0; e < c; ++e)

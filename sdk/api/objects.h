@@ -114,7 +114,7 @@ void destroy(T* object, size_t extra = 0) {
 
 namespace anicodec {
 
-/// What the assets of an opened file have in common. It goes with the last of them.
+/// State shared by the assets of an opened file. It goes with the last of them.
 struct OpenedFile {
   Clip clip;
   double quality = 1;
@@ -178,7 +178,7 @@ anic_status find_attribute(const anic_context* context, uint32_t mesh, uint32_t 
 Failure open_asset(const ContainerReader& file, size_t size, const anic_options& options,
                    KeptMeshes* kept, KeptLearning* learning, anic_asset** out);
 
-/// What anic_open_asset() does. Throws std::bad_alloc.
+/// The body of anic_open_asset(). Throws std::bad_alloc.
 Failure open_asset(ByteView bytes, const anic_options& options, anic_asset** out);
 
 }  // namespace anicodec

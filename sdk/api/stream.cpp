@@ -76,7 +76,8 @@ void each_needed(anic_stream* stream, size_t begin, size_t end, Visit visit) {
   }
 }
 
-/// What `file` reads: the bytes of the file at hand, of a continuation behind those of its meshes.
+/// The bytes that `file` reads: those of the file at hand; for a continuation, its meshes' bytes
+/// come first.
 ByteView bytes_at_hand(const anic_stream& stream) {
   const size_t from = stream.file.is_continuation() ? 0 : stream.begin;
   return {stream.bytes.data() + from, stream.bytes.size() - from};

@@ -68,7 +68,7 @@ struct RotationVotes {
 };
 
 /// The votes for the rotation R that maximises the sum of (R a) . b over pairs of points, for
-/// products = sum of a b^T. Where that leaves R open (points on a line, a single point) the votes
+/// products = sum of a b^T. If the pairs leave R open (points on a line, a single point) the votes
 /// lean towards the identity.
 RotationVotes votes_for(const Matrix3& products);
 

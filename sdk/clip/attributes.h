@@ -22,9 +22,10 @@ struct MeshAttribute {
       surface;  ///< of an attribute that moves: attribute_surface(); its triangles go once segments are open
 };
 
-/// Decodes the attributes of a mesh in canonical order. `moving`: for each, one more than the domain over which
-/// segments move it, 0 where none do; those of that domain get their entries. Cost: O(corners log corners +
-/// numbers), memory 40 bytes for each corner and 8 for each vertex beside the result, for a moment.
+/// Decodes the attributes of a mesh in canonical order. `moving`: for each attribute, one more than
+/// the domain over which segments move it, 0 if none do; attributes of that domain get their
+/// entries. Cost: O(corners log corners + numbers), memory 40 bytes for each corner and 8 for each
+/// vertex beside the result, for a moment.
 Status decode_attributes(const AttributeRecord& record, const Limits::Mesh& sizes,
                          const Topology& topology, const Vector<uint8_t>& moving,
                          Vector<MeshAttribute>* out);

@@ -165,8 +165,8 @@ class Clip {
   /// The motion of the whole in a frame of the file. O(log clips).
   RootState root_at(uint32_t frame) const;
 
-  /// What play() needs for a frame, counted in a segment of positions, the motion of the whole
-  /// included where the positions have it.
+  /// The input of play() for a frame, counted in a segment of positions, with the motion of the
+  /// whole if the positions include it.
   FrameState state_of(const Segment& segment, uint32_t frame) const;
 
   /// Positions of all vertices of a mesh in one frame, in the order of the clip, three floats each.

@@ -10,9 +10,9 @@
 
 namespace anicodec {
 
-/// What the chunks of all meshes of a file decode to, for whoever opens the same chunks again: of a file
-/// more layers of which have arrived, or of a continuation of a live stream. Kept in the memory that
-/// was current when the object was made.
+/// The decoded mesh chunks of a file, kept for the next opening of the same chunks: of a file more
+/// layers of which have arrived, or of a continuation of a live stream. Kept in the memory that was
+/// current when the object was made.
 class KeptMeshes {
  public:
   KeptMeshes() : KeptMeshes(MemoryScope::current()) {}

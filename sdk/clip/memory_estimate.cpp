@@ -24,7 +24,7 @@ constexpr uint64_t kClip = 256, kRootOfClip = 128, kRootOfFrame = 12;
 constexpr uint64_t kStructure = 512;  // of a mesh or segment
 constexpr uint64_t kMatrix = 48;      // bytes of a pose map or motion
 constexpr uint64_t kExactModels = uint64_t{1} << 18;
-constexpr uint64_t kSymbol = 12;               // bytes that Draco keeps of one that may occur
+constexpr uint64_t kSymbol = 12;               // bytes that Draco keeps per possible symbol
 constexpr uint64_t kZstd = uint64_t{1} << 17;  // what zstd decodes in
 
 /// A sum that stays at its end instead of wrapping.
@@ -70,8 +70,8 @@ uint64_t exact_bytes(const Limits::Segment& s, const Limits::Mesh& mesh) {
   return uint64_t{12} * s.frames * mesh.coded_vertices;
 }
 
-/// What they are decoded in: four neighbours of each vertex and what is known of it, errors of lattice
-/// points, a reference of each frame.
+/// Scratch memory of decoding exact positions: four neighbours of each vertex and their state,
+/// errors of lattice points, a reference of each frame.
 uint64_t exact_opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
   return s.exact ? uint64_t{42} * mesh.coded_vertices + exact_bytes(s, mesh) +
                        uint64_t{12} * s.frames + kExactModels

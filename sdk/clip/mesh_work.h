@@ -35,7 +35,7 @@ struct MeshWork {
   uint32_t predicted_segments = 0;     ///< of the limits
   std::optional<CornerTable> corners;  ///< for the poses
   std::optional<MeshGraph> graph;      ///< of the orders of vertices
-  Vector<AttributeWork> attributes;    ///< of those that move, in the order of their first segments
+  Vector<AttributeWork> attributes;    ///< only moving ones, in the order of their first segments
 
   bool is_shared() const { return predicted_segments > 1; }
 

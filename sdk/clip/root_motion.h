@@ -31,7 +31,7 @@ struct RootState {
   Affine affine(const GroundAxes& axes) const;
 };
 
-/// What moves the whole of each clip (spec/06-chunks.md, section 11).
+/// Root motion of each clip (spec/06-chunks.md, section 11).
 class RootMotion {
  public:
   /// Whether no clip has any.
@@ -42,11 +42,11 @@ class RootMotion {
   /// RootRecord::kMoves, kTurns, both or neither.
   uint8_t holds(uint32_t clip) const { return empty() ? uint8_t{0} : clips_[clip].holds; }
 
-  /// Decodes the series. Those of clips that are not wanted are given back. `wanted`: by clip.
+  /// Decodes the series. Series of clips that are not wanted are given back. `wanted`: by clip.
   /// Errors: those of chunk ROOT.
   Status open(ByteView payload, const Limits& limits, uint8_t up, const Vector<uint8_t>& wanted);
 
-  /// Of a frame of a clip, counted within it.
+  /// Root motion at a frame, counted within the clip.
   RootState at(uint32_t clip, uint32_t frame) const;
 
   /// Makes the clip at hand the only one.

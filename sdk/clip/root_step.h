@@ -10,10 +10,10 @@
 
 namespace anicodec {
 
-/// What moves a character on from one time of a clip to another, earlier or later: a turn, and a move
-/// in the axes that the character has at `from`; no pivot. A loop goes on at its end from where it is,
-/// and keeps its pace between its last frame and the next first one. Both times are finite, and in a
-/// loop less than 2^52 turns apart. Cost: O(log frames + log turns).
+/// The step of a character from one time of a clip to another, earlier or later: a turn, and a move
+/// in the axes that the character has at `from`; no pivot. A loop goes on at its end from where it
+/// is, and keeps its pace between its last frame and the next first one. Both times are finite, and
+/// in a loop less than 2^52 turns apart. Cost: O(log frames + log turns).
 RootState root_step(const Clip& clip, uint32_t number, double from, double to, Sampling sampling,
                     Wrap wrap);
 

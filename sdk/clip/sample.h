@@ -47,8 +47,7 @@ RootState root_state(const Clip& clip, const FrameMix& mix);
 /// way; corrections are there when the mix is one frame. Frames in which the mesh is missing drop
 /// out; without the first one, the sample is empty. Frames without an attribute's segment add
 /// nothing. `quality` in (0, 1] is the share of a segment's components to be played. Cost:
-/// O(components) per frame; in a segment of
-/// MSGI that of one evaluation for each part. Allocates nothing.
+/// O(components) per frame; in a segment of MSGI one evaluation for each part. Allocates nothing.
 Sample make_sample(const Clip& clip, uint32_t track, const FrameMix& mix, float* buffer,
                    float* scratch, double quality = 1);
 

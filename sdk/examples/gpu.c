@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * SPDX-FileCopyrightText: The anicodec authors
  *
- * What a vertex shader does, done here: the basis of a segment lies in buffers, a frame is a
+ * The work of a vertex shader, done in C: the basis of a segment lies in buffers, a frame is a
  * handful of weights. The result is compared with what the library itself makes of the frame.
  *
  * In GLSL, with the basis in 16 bits, two to a uint, and weights and matrices of an instance in a

@@ -25,7 +25,7 @@ constexpr uint32_t previous_corner(uint32_t corner) {
 /// The half-edges of triangles or polygons, grouped by undirected edge. A half-edge leads from a
 /// corner to the next one of its polygon and is named by that corner. Edges ascend by lower, then by
 /// higher vertex; the half-edges of an edge ascend by corner. An edge may have any number of
-/// half-edges, and may lead from a vertex to itself: it is for the user to say what that means.
+/// half-edges, and may lead from a vertex to itself: the user decides how to treat both.
 class HalfEdges {
  public:
   static constexpr uint32_t kNone = UINT32_MAX;

@@ -105,8 +105,8 @@ Vector<Direction> polygon_normals(const Topology& t, const float* pose) {
   return normals;
 }
 
-/// Joins the corners at both ends of every edge that is no crease. Of the polygons at an edge, each
-/// is compared with the next one.
+/// Joins the corners at both ends of every edge that is no crease. Each polygon at an edge is
+/// compared with the next one.
 void join_across_edges(const Topology& topology, const Corners& corners, const float* pose,
                        double crease_cosine, DisjointSets* sets) {
   const Vector<Direction> normals = polygon_normals(topology, pose);

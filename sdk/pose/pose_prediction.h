@@ -35,7 +35,7 @@ class PosePrediction {
   /// The table must outlive it. O(vertices).
   explicit PosePrediction(const CornerTable& table);
 
-  /// Another pose begins: nothing is known of it. What was learnt of poses stays.
+  /// Another pose begins: nothing is known of it. Knowledge learnt from earlier poses stays.
   void restart();
 
   /// Turns to a vertex: each once. `positions`: vertices x 3, those of earlier ones are final.

@@ -37,7 +37,7 @@ struct PredictionParameters {
 /// ascending; of those before the last of `components`.
 Vector<size_t> refits_of(const PredictionParameters& parameters, size_t components);
 
-/// Those after which the prior is renewed.
+/// The components after which the prior is renewed.
 Vector<size_t> renewals_of(const PredictionParameters& parameters, size_t components);
 
 /// Weight of a component's samples in the refit, from its byte: 2^((byte - 128) / 4), rounded.

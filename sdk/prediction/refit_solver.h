@@ -66,7 +66,7 @@ struct RefitSolver {
 
   /// Prior weights anew, by what is near in position and in the `samples` decoded so far: x of the
   /// neighbours, y of the vertices (Rasmussen and Williams 2006, chapter 4: Matern's covariance).
-  /// What has been learnt stays valid.
+  /// All that has been learnt stays valid.
   void renew_prior(const PredictionJob& job, size_t first, size_t count, const Float (*x)[M],
                    const Float* y, size_t samples) {
     Float place_of[M][3], length[M], valid[M], number{}, mean{};
@@ -82,8 +82,8 @@ struct RefitSolver {
       mean += valid[a] * square_root(sum);
       number += valid[a];
     }
-    // Of the squared distances, what two roundings leave; where there is little more, motion tells
-    // nothing.
+    // The part of the squared distances that two roundings leave; if there is little more, motion
+    // tells nothing.
     const float noise = 1.0f / 6.0f * static_cast<float>(samples);
     mean = mean / number;
     const Float square = mean * mean;

@@ -97,7 +97,8 @@ class CorrectionCoding {
     corrected_blocks_.clear();
   }
 
-  /// What is kept of a correction: 0 of none, else 64 and a sign in two bits for each coordinate.
+  /// The part of a correction that is kept: 0 if there is none, else 64 and a sign in two bits for
+  /// each coordinate.
   static uint8_t signs(const int32_t (&delta)[3]) {
     uint32_t packed = 64;
     for (uint32_t c = 0; c < 3; ++c)

@@ -11,7 +11,8 @@ namespace anicodec {
 
 /// Makes an opened segment one of its frames first .. first + count - 1 alone: the weights,
 /// matrices and corrections of others are given back, and with them the components of linear bases
-/// that rest in all frames kept. Those play as before, to the last bit. Cost: O(what is resident).
+/// that rest in all frames kept. The kept frames play as before, to the last bit. Cost: O(what is
+/// resident).
 void keep_frames(uint32_t first, uint32_t count, Segment* segment);
 
 }  // namespace anicodec

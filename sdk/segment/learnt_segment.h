@@ -12,7 +12,8 @@
 
 namespace anicodec {
 
-/// Most neighbours of a vertex in a segment that learns, so that what is kept stays small.
+/// Most neighbours of a vertex in a segment that learns; it bounds the memory kept between
+/// segments.
 inline constexpr uint8_t kMostLearningNeighbours = 16;
 
 /// Statistics that decoding the coefficients of a segment has taught, for the segment that continues it (spec/09a-segments.md,

@@ -37,9 +37,9 @@ struct Affine {
 ///
 ///   x(v, f) = M_f * (A_f * pose(v) + sum_j weight(f, j) * coefficient(j, v)) + correction(v, f)
 ///
-/// with A_f affine, M_f rigid, both optional. Where there are regions, A_f and the weights are those
-/// of the vertex' region. Its vertices are those of the user, in the user's
-/// order, or the coded ones (SegmentContext::vertex_coded).
+/// with A_f affine, M_f rigid, both optional. With regions, A_f and the weights are those of the
+/// vertex' region. Its vertices are those of the user, in the user's order, or the coded ones
+/// (SegmentContext::vertex_coded).
 struct Segment {
   BasisKind kind = BasisKind::kKeyframes;
   Reconstruction reconstruction = Reconstruction::kLinear;
@@ -102,7 +102,7 @@ struct Segment {
   size_t resident_bytes() const;
 };
 
-/// What the streams of a linear segment decode to.
+/// The decoded streams of a linear segment.
 struct DecodedBasis {
   Vector<int32_t>
       affine_weights;          ///< regions x functions x 3 x frames; empty: the base keeps still

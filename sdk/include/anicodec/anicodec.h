@@ -386,17 +386,17 @@ ANIC_API anic_status anic_open_asset_from_reader(const anic_reader* reader, uint
  * be closed first; the file's memory goes, to the allocator that the file was opened with, when the
  * last of them is closed.
  *
- * - Params: options: allocator is for what the asset takes itself (default: the file's); clips names
- *   some of those that are open in `asset`; quality is, as in opening, a share of the file's
- *   components, of which no more are played than `asset` plays, and 0 as many; flags must be those
- *   that the file was opened with; the rest means nothing. NULL: all as in `asset`
+ * - Params: options: allocator is for the memory of the asset itself (default: the file's); clips
+ *   names clips that are open in `asset`; quality is, as in opening, a share of the file's
+ *   components, at most as many as `asset` plays, and 0 as many; flags must equal the flags that the
+ *   file was opened with; the rest means nothing. NULL: all as in `asset`
  * - Result: resident_bytes of its anic_asset_info are those that it takes itself, a few hundred;
  *   boxes, anic_get_basis() and textures are the file's, the same addresses for all
  * - Errors: ANIC_E_ABSENT: a clip is not in the file, or not open in `asset`; ANIC_E_MEMORY;
  *   ANIC_E_ARGUMENT
  * - Cost: O(clips); nothing is decoded
  * - Threads: any, while `asset` is open. Assets of one file may be used and closed on different
- *   threads at once; the file's allocator must be good on that which closes the last one
+ *   threads at once; the file's allocator must work on the thread that closes the last one
  */
 ANIC_API anic_status anic_share_asset(const anic_asset* asset, const anic_options* options,
                                       anic_asset** out);
@@ -625,7 +625,7 @@ ANIC_API anic_status anic_get_attribute(const anic_asset* asset, uint32_t mesh, 
 ANIC_API const char* anic_get_label_name(const anic_asset* asset, uint32_t mesh, uint32_t attribute,
                                          uint32_t label);
 
-/** What of a surface lets light through. */
+/** How a surface lets light through. */
 enum anic_alpha ANIC_INT32 {
   ANIC_ALPHA_OPAQUE = 0,
   ANIC_ALPHA_MASK = 1, /**< all where the base colour's alpha is below alpha_cutoff, else nothing */
@@ -749,11 +749,11 @@ ANIC_API anic_status anic_seek_time(anic_context* context, double seconds, anic_
 /**
  * Cross-fades what is shown with a moment of a clip, open and the same or another one: weight 0 changes
  * nothing, 1 shows the moment alone. May be called again: each time what is shown then counts as one.
- * What was shown before the last seek stays ANIC_WHEN_PREVIOUS.
+ * ANIC_WHEN_PREVIOUS stays the moment shown before the last seek.
  *
- * Where moments share a basis, weights are mixed, which costs what one moment does, and rigid motions
- * turn the shorter way; otherwise positions are. Corrections are applied at a single whole frame only.
- * A blend of equal moments is that moment to the last bit.
+ * If the moments share a basis, weights are mixed, at the cost of one moment, and rigid motions
+ * turn the shorter way; otherwise positions are mixed. Corrections are applied at a single whole
+ * frame only. A blend of equal moments is that moment to the last bit.
  *
  * - Errors: ANIC_E_STATE: nothing is chosen yet; ANIC_E_ABSENT: the clip was not opened; ANIC_E_LIMIT:
  *   more than 16 frames, or frames of more than ANIC_MAX_PARTS segments of a mesh; ANIC_E_ARGUMENT: no
@@ -784,13 +784,13 @@ enum anic_when ANIC_INT32 {
  */
 typedef struct anic_root_motion {
   size_t struct_size;
-  uint8_t moves; /**< the clip holds moves, or one of those that are blended does */
+  uint8_t moves; /**< the clip holds moves, or a blended clip does */
   uint8_t turns; /**< the same of turns */
   double turn;   /**< radians, counter-clockwise seen from above; whole turns count */
   double move[3];
   double pivot[3];
-  float matrix[12]; /**< the same as one map, 3 x 4, row-major: what takes positions without it
-                       (ANIC_OPEN_IN_PLACE) to those with it */
+  float matrix[12]; /**< the same as one map, 3 x 4, row-major: from positions without root
+                       motion (ANIC_OPEN_IN_PLACE) to positions with it */
 } anic_root_motion;
 
 /**
@@ -1347,11 +1347,11 @@ typedef struct anic_correction {
  * - x = motion * (x + origin, 1)
  * - x = x + delta of the corrections of v, which are few and ascending by vertex
  *
- * With one channel, basis(j, v) is multiplied by each of the three weights. Where the basis has
- * regions, r = vertex_region[v] has the pose_map at anic_parts.pose_maps + 12 r and the weights from
- * weights + r * anic_basis.components * weight_channels on. With
- * ANIC_RECONSTRUCTION_MSGI the first line and the origin give way to x = shape(vertex_shape(v)),
- * three floats for each point, which the seek has made.
+ * With one channel, basis(j, v) is multiplied by each of the three weights. If the basis has
+ * regions, r = vertex_region[v] has the pose_map at anic_parts.pose_maps + 12 r and the weights
+ * from weights + r * anic_basis.components * weight_channels on. With ANIC_RECONSTRUCTION_MSGI the
+ * first line and the origin give way to x = shape(vertex_shape(v)), three floats for each point,
+ * which the seek has made.
  *
  * Matrices are 3 x 4, row-major. Pointers are good until the next but one seek of the context.
  */
@@ -1471,8 +1471,8 @@ ANIC_API anic_status anic_write_texture(const anic_asset* asset, uint32_t segmen
  * for numbers, with the texel a and the weights u, v, w,
  * a.x u.xyz + a.y (u.w, v.xy) + a.z (v.zw, w.x) + a.w w.yzw.
  *
- * Where the segment has regions, that is written for each of them: the state of the region that the
- * fourth number of a vertex' pose names begins at texel region * state_floats / (4 * regions).
+ * If the segment has regions, the state is written for each of them: the state of the region that
+ * the fourth number of a vertex' pose names begins at texel region * state_floats / (4 * regions).
  *
  * Components that anic_set_quality() leaves out have weight 0.
  *
@@ -1534,9 +1534,10 @@ ANIC_API anic_status anic_push_bytes(anic_stream* stream, const void* bytes, siz
 /**
  * Turns to the next file of a live stream: what anicodec encode --live writes, a file for each second or so,
  * of which all but the first leave out their meshes. Its clip has the time at which it begins (anic_clip.start_time).
- * Open the file at hand before; the stream gives its bytes up, and keeps those of the meshes. Files of a stream that
- * learns continue those before them: where one was lost, or not opened when it was complete, those that follow are refused
- * with ANIC_E_SEGMENT_MISSING up to the next that begins anew.
+ * Open the file at hand before; the stream gives its bytes up, and keeps those of the meshes. Files
+ * of a stream that learns continue the files before them: after a file that was lost, or not opened
+ * when it was complete, the following ones are refused with ANIC_E_SEGMENT_MISSING up to the next
+ * that begins anew.
  *
  * - Errors: ANIC_E_STATE: the file is not complete; those of anic_push_bytes(), of the bytes that waited
  * - Cost: O(waiting bytes)

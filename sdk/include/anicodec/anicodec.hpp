@@ -261,7 +261,7 @@ class Asset {
 
   double frame_time(uint32_t frame) const { return anic_get_frame_time(get(), frame); }
 
-  /// What moves a character on from one time of a clip to another: see anic_get_root_step().
+  /// The step of a character from one time of a clip to another: see anic_get_root_step().
   Status root_step(uint32_t clip, double from, double to, anic_root_motion* out,
                    anic_sampling sampling = ANIC_SAMPLE_LINEAR,
                    anic_wrap wrap = ANIC_WRAP_LOOP) const {
