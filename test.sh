@@ -34,7 +34,7 @@ if $packages_wanted; then
     timeout 120 npm ci --prefix tests/gltf --no-audit --no-fund || say "No glTF validator: its test is skipped"
   fi
 fi
-# What the web's tests need, which no other build waits for.
+# Packages of the web's tests alone.
 install_web_packages() {
   install_optional emscripten chromium || say "No emscripten or Chromium: tests of the npm package are skipped"
   # With the clang that emscripten needs.

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
 #
-# What quickstart.sh and test.sh share: the list of packages, installing them, and building a preset.
-# To be sourced, with the checkout as current folder.
+# Shared by quickstart.sh and test.sh: the list of packages, installing them, and building a preset. To be sourced, with
+# the checkout as current folder.
 
 # Debian packages needed to build and test.
 packages=(

@@ -3,8 +3,8 @@
 # SPDX-FileCopyrightText: The anicodec authors
 """Copies a folder of a source package of PyPI: fetch_source.py PACKAGE VERSION SHA256 FOLDER TO.
 
-pip brings the package and checks its hash. It asks the package for its metadata, too, for which it brings what that package
-is built with, for as long as it runs.
+pip brings the package and checks its hash. It asks the package for its metadata, too, and brings the tools that build the
+package, for as long as it runs.
 """
 import importlib.util
 import pathlib

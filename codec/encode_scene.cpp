@@ -211,7 +211,7 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
   all.vertices = *std::ranges::max_element(counts.vertices);
   all.faces = *std::ranges::max_element(counts.faces);
   all.rmse = parts.size() == 1 ? parts[0].first.rmse : std::sqrt(squared / spread.positions);
-  // What is measured of a single part is not rounded twice: its file is that of a plain clip.
+  // Numbers measured of a single part are not rounded twice: its file is that of a plain clip.
   all.kg = parts.size() == 1 ? parts[0].first.kg
                              : 100 * std::sqrt(squared / (spread.squared > 0 ? spread.squared : 1));
 

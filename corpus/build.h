@@ -73,7 +73,7 @@ Mesh quad_box(uint32_t n);
 /// Every polygon cut into a fan from its first corner.
 Mesh triangulated(const Mesh& mesh);
 
-/// Where a vertex is at a time in seconds.
+/// The position of a vertex at a time in seconds.
 using Motion = std::function<Vec3(uint32_t vertex, const Vec3& rest, double time)>;
 
 /// Samples a motion at 24 frames a second. Coordinates become multiples of unit / 2^16, unit a

@@ -11,7 +11,7 @@
 
 namespace anicodec::corpus {
 
-/// What is asked of a scalable clip: about as many vertices, exactly as many frames.
+/// The size of a scalable clip: about as many vertices, exactly as many frames.
 struct ClipSize {
   uint32_t vertices;
   uint32_t frames;

@@ -59,7 +59,7 @@ def component(name, version, licence, purl, digest=None):
 
 
 def used_by(name, components):
-    """What is compiled into a file of the release; Debian packages depend on shared libraries of the rest."""
+    """The components compiled into a file of the release; Debian packages depend on shared libraries of the rest."""
     def refs(wanted):
         return [c["bom-ref"] for c in components if c["name"] in wanted]
     sources = set(SOURCES)

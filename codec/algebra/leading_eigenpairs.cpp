@@ -38,7 +38,7 @@ Eigenpairs diagonalise(const MatrixXd& symmetric, Index max_count, double smalle
   return select(solver.eigenvalues(), solver.eigenvectors(), max_count, smallest);
 }
 
-// Orthonormal columns that span those of w without what q spans.
+// An orthonormal basis of the columns of w, orthogonal to the columns of q.
 MatrixXd orthonormal(MatrixXd w, const MatrixView& q) {
   for (int pass = 0; pass < 2; ++pass) {  // twice is enough
     w -= product(q, inner_products(q, w));

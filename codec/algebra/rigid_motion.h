@@ -20,8 +20,8 @@ struct RigidMotion {
 };
 
 /// The rotation R that maximises tr(R^T m), for m = sum over points of target source^T the best
-/// rotation of source onto target (Kabsch 1976; Umeyama 1991). Never a reflection. Where m leaves
-/// it open (points on a line, all points alike) the one nearest to prior is taken.
+/// rotation of source onto target (Kabsch 1976; Umeyama 1991). Never a reflection. If m leaves it
+/// open (points on a line, all points alike) the rotation nearest to prior is taken.
 Eigen::Matrix3d best_rotation(const Eigen::Matrix3d& m,
                               const Eigen::Matrix3d& prior = Eigen::Matrix3d::Identity());
 

@@ -46,19 +46,21 @@ struct StoredAttribute {
   Topology surface;  ///< attribute_surface(), in canonical order
 };
 
-/// Whether elements that share what moves still do in other frames than those of which `stored` was made. O(values).
+/// Whether elements that share a moving value in `stored` share it in the frames of `attribute`,
+/// too. O(values).
 bool moves_as_stored(const Attribute& attribute, const StoredAttribute& stored);
 
 /// Codes what stands beside the positions, as in the first frame, into layout->attributes (chunk
-/// ATTR) and counts of them (layout->sizes). Of normals only the hard edges are kept, unless options
+/// ATTR) and counts of them (layout->sizes). Normals are kept as hard edges only, unless options
 /// ask for more: corners at one coded vertex whose normals are less than half a degree apart share
 /// one. Materials and parts become labels of polygons. The steps of an attribute that moves are
-/// halved until its first frame takes a quarter of its error at most, and its elements share what moves only where
-/// their values stay within an eighth of it. An attribute that rests and has a bound of its own has the coarsest steps
-/// that keep it. Returns the attributes that are stored as numbers. Throws Error(kInput), naming frame and element, for
-/// values that are not finite, that no grid can hold or that are not whole although they are to be exact, or if there
-/// are not as many as the mesh has elements; Error(kUsage) for a bound that cannot be kept. Cost: O(values + corners log
-/// corners).
+/// halved until its first frame takes a quarter of its error at most, and its elements share what
+/// moves only where their values stay within an eighth of it. An attribute that rests and has a
+/// bound of its own has the coarsest steps that keep it. Returns the attributes that are stored as
+/// numbers. Throws Error(kInput), naming frame and element, for values that are not finite, that no
+/// grid can hold or that are not whole although they are to be exact, or if there are not as many
+/// as the mesh has elements; Error(kUsage) for a bound that cannot be kept. Cost: O(values +
+/// corners log corners).
 std::vector<StoredAttribute> encode_attributes(const MeshSequence& sequence,
                                                const AttributeOptions& options, MeshLayout* layout);
 

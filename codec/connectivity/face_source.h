@@ -78,8 +78,8 @@ class FaceSource {
  private:
   static constexpr uint32_t kNone = UINT32_MAX;
 
-  /// A side of a face: where it leads, the corner it starts at, and where to look for the next face
-  /// that is not done, of those whose side leads the same way; used of the first of them.
+  /// A side of a face: the vertex it leads to, the corner it starts at, and the next side to the
+  /// same vertex whose face is not done; `next` is used of the first such side.
   struct SideItem {
     uint32_t to;
     uint32_t corner;

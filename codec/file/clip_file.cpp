@@ -89,7 +89,7 @@ Bytes clip_file(const ClipsRecord& record, const MeshLayout& layout,
     if (!s.corrections.empty())
       file.add("CORR", true, kMesh, i, s.corrections);
   }
-  // What refines all comes last: streams play before it is there.
+  // Exact positions come last: streams play before they are there.
   for (uint32_t i = 0; i < segments.size(); ++i) {
     if (!segments[i]->exact.empty())
       file.add("DIFF", true, kMesh, i, segments[i]->exact);

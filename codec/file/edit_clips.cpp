@@ -51,7 +51,7 @@ struct Opened {
     return view;
   }
 
-  /// Of a chunk that must be there.
+  /// The payload of a chunk that must be there.
   ByteView payload(const char (&type)[5]) const {
     const Chunk* chunk = reader.find(type);
     if (!chunk)
@@ -59,7 +59,7 @@ struct Opened {
     return payload(*chunk);
   }
 
-  /// Of a chunk of the mesh; empty when there is none.
+  /// The payload of a chunk of the mesh; empty when there is none.
   ByteView of_mesh(const char (&type)[5]) const {
     const Chunk* chunk = reader.find(type, 0);
     return chunk ? payload(*chunk) : ByteView();

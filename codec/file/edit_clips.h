@@ -15,7 +15,7 @@
 
 namespace anicodec {
 
-/// What a clip that comes to a file must agree with.
+/// Properties of a file that a clip added to it must share.
 struct ClipHome {
   OrderMode order = OrderMode::kVertices;
   uint8_t up = 0;

@@ -66,8 +66,8 @@ struct EncodeOptions {
   /// Bases of eigenshapes and eigentrajectories lean on this pose, of a file that the clip goes to. Null: on
   /// any.
   std::shared_ptr<const EncodedPose> pose;
-  /// The mesh as it lies in a file that the clip goes to, with its attributes: those of the sequence are left
-  /// alone but for those that `stored` lists, which move. Null: it is laid out.
+  /// The mesh and attributes of the file that the clip goes to. Attributes of the sequence are
+  /// ignored, except for the moving ones that `stored` lists. Null: it is laid out.
   std::shared_ptr<const MeshLayout> layout;
   std::shared_ptr<const std::vector<StoredAttribute>> stored;
   /// Learnt from the files of a live stream before this one: its segment goes on there, and leaves what it learns
@@ -75,8 +75,8 @@ struct EncodeOptions {
   KeptLearning* learning = nullptr;
   AttributeOptions attributes;
   Effort effort = Effort::kNormal;
-  /// What the search of eigenshapes and eigentrajectories does without, by the names of
-  /// search_means(): to measure what each is worth.
+  /// Features that the search of eigenshapes and eigentrajectories leaves out, by the names of
+  /// search_means(): to measure the worth of each.
   std::vector<std::string> without;
   uint64_t most_bytes =
       0;  ///< of memory (docs/memory.md): OverMemory where more would be held, fewer threads before; 0: any

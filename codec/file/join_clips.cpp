@@ -124,7 +124,8 @@ ClipsRecord joined_record(const std::vector<OpenPart>& parts) {
     if (r.kg > 0)
       reference += of_part / (r.kg * r.kg / 1e4);
     frames += part.limits.frames;
-    // Of the move from one part to the next, no more is known than the errors of its two frames.
+    // The error of the move from one part to the next is only bounded, by the errors of its two
+    // frames.
     const double seam = &part == parts.data() ? 0 : (&part)[-1].clip().max_error + r.max_error;
     record.max_displacement_error =
         std::max({record.max_displacement_error, r.max_displacement_error, seam});

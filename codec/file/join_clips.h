@@ -33,8 +33,8 @@ struct PlacedPart {
 };
 
 /// Makes one file of clips of one mesh each, of several meshes: each is there in the frames of its
-/// parts alone. Meshes are numbered from 0, none left out. What the file says of the clip is given;
-/// its promise must be true. Checks and errors as of join_clips().
+/// parts alone. Meshes are numbered from 0, none left out. `record` describes the clips of the
+/// file; its promised errors must be true. Checks and errors as of join_clips().
 Bytes join_meshes(const std::vector<PlacedPart>& parts, uint32_t frames, const ClipsRecord& record);
 
 }  // namespace anicodec

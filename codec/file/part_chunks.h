@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What joining and editing files have in common: their chunks are compared and copied as they are.
+// Shared by joining and editing of files: their chunks are compared and copied as they are.
 #ifndef ANICODEC_CODEC_FILE_PART_CHUNKS_H_
 #define ANICODEC_CODEC_FILE_PART_CHUNKS_H_
 

@@ -151,7 +151,7 @@ EncodedRoot take_root_motion(double diagonal, MeshSequence* sequence) {
   const Bytes stream = encoder.finish();
   record.stream = stream;
   result.chunk = record.write();
-  // What the decoder reads is what is taken out.
+  // The motion that the decoder will read is subtracted, not the original.
   RootMotion decoded;
   const Vector<uint8_t> all(clips.size(), 1);
   if (decoded.open(result.chunk, limits, static_cast<uint8_t>(sequence->up), all) != Status::kOk)

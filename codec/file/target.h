@@ -24,7 +24,7 @@ struct Target {
 /// The target with lengths in scene units. Throws Error(kUsage) for values that make no sense.
 Target in_scene_units(Target target, double diagonal);
 
-/// What a clip must keep, lengths in scene units.
+/// The target and the cap of a clip, lengths in scene units.
 struct ClipGoal {
   Target target;
   std::optional<double> cap;  ///< a maximum error beside another target

@@ -52,10 +52,10 @@ class Interpolation {
                                           std::span<const float> pins = {}) = 0;
 };
 
-/// inputs: vertex_count x 3 each, at least two. Vertices that rest in all of them decide
-/// where methods that know no places (kMsgi, kVertexBlending, refinement) put a mesh, see
-/// RestingParts, unless there are pins. Throws Error(kUsage) for fewer, for pins that are
-/// out of range, given twice or not for kMsgi; Error(kInput) for what the method cannot work on.
+/// inputs: vertex_count x 3 each, at least two. Vertices that rest in all inputs decide where
+/// methods that know no places (kMsgi, kVertexBlending, refinement) put a mesh, see RestingParts,
+/// unless there are pins. Throws Error(kUsage) for fewer, for pins that are out of range, given
+/// twice or not for kMsgi; Error(kInput) for what the method cannot work on.
 std::unique_ptr<Interpolation> make_interpolation(std::span<const uint32_t> triangles,
                                                   uint32_t vertex_count,
                                                   std::span<const std::span<const float>> inputs,

@@ -15,7 +15,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Of the diagonal of all inputs: what rounding to float32 moves.
+/// A vertex rests if it moves by less than this share of the diagonal of all inputs, as rounding to
+/// float32 does.
 constexpr double kTolerance = 1e-6;
 
 /// How much a vertex that moves counts against one that rests: enough to decide what these leave open.

@@ -107,8 +107,8 @@ std::vector<uint32_t> gas_frames(const MatrixXd& gram, size_t count, KeyframeSpa
                                     errors.begin())];
 }
 
-/// The middles of equal parts of the clip. Of a part whose middle nearly repeats a frame that is
-/// taken, the nearest frame that does not; if there is none, the nearest that is no repeat.
+/// The middles of equal parts of the clip. If a middle nearly repeats a frame that is taken, the
+/// nearest frame of its part that does not; if there is none, the nearest that is no repeat.
 std::vector<uint32_t> uniform_frames(const MatrixXd& gram, size_t count) {
   const auto total = static_cast<size_t>(gram.rows());
   const double near = kNearRepeat * about_mean(gram).diagonal().mean();

@@ -20,13 +20,13 @@ struct MsgiFit {
 
 /// Improves weights and rigid motions of a fit of kind KeyframeWeights::kRigid, which were found
 /// for straight lines, by Gauss-Newton steps through the interpolation itself: the derivatives by
-/// the key-frames of largest weight are taken numerically. Of several fits, at
-/// least one, that is taken which starts with the least error: what serves straight lines best may
-/// leave out the poses between which others lie. Errors in the result are those of MSGI between the
-/// exact key-frames. Key-frames keep their unit weights. `triangles` are over the
-/// clip's vertices. Throws Error(kInput) when the mesh cannot be interpolated. Steps
-/// start from those weights or from the times of the key-frames before and after, whichever do
-/// better. Cost: 10 to 40 evaluations of Msgi per frame; the same bits for any number of threads.
+/// the key-frames of largest weight are taken numerically. Starts from the fit of the least error,
+/// of at least one: the best fit for straight lines may leave out the poses between which others
+/// lie. Errors in the result are those of MSGI between the exact key-frames. Key-frames keep their
+/// unit weights. `triangles` are over the clip's vertices. Throws Error(kInput) when the mesh
+/// cannot be interpolated. Steps start from those weights or from the times of the key-frames
+/// before and after, whichever do better. Cost: 10 to 40 evaluations of Msgi per frame; the same
+/// bits for any number of threads.
 MsgiFit fit_msgi_weights(const FrameView& clip, std::span<const uint32_t> triangles,
                          std::span<const KeyframeFit> rigid_fits);
 

@@ -42,10 +42,10 @@ struct Residuals {
 /// The correspondences between a mesh that moves and the surface that it is to cover, both ways:
 /// every vertex (and triangle centre) of the mesh with its closest point on the surface, and every
 /// vertex of the surface with the closest point of the mesh. Closest points are kept by walking
-/// from the ones before, and found anew by the spatial index when asked. Left out are those whose
-/// normals disagree, and those of which one side alone lies on the boundary; the boundary of the
-/// mesh corresponds with that of the surface if it has one. On all threads; the result does not
-/// depend on their number.
+/// from the ones before, and found anew by the spatial index when asked. A pair is left out if its
+/// normals disagree, or if one of its sides lies on the boundary and the other does not; the
+/// boundary of the mesh corresponds with that of the surface if it has one. On all threads; the
+/// result does not depend on their number.
 class Correspondences {
  public:
   /// Both must outlive it; the surface has an index. centres: of the triangles as well.

@@ -13,10 +13,10 @@
 
 namespace anicodec {
 
-/// Tells what the frames of a clip share from what is each frame's own, along its principal
-/// components: a component of variance s keeps max(0, 1 - (level / s)^2) of itself, which is a
-/// Wiener filter that is given once more what it took away ("twicing", Tukey 1977), so that what
-/// stays is hardly weakened. Noise that is independent from frame to frame spreads over all
+/// Separates the motion that frames of a clip share from the noise of each frame, along its
+/// principal components: a component of variance s keeps max(0, 1 - (level / s)^2) of itself. This
+/// is a Wiener filter applied again to its own residual ("twicing", Tukey 1977), which hardly
+/// weakens strong components. Noise that is independent from frame to frame spreads over all
 /// components alike, motion over few.
 class SequenceFilter {
  public:

@@ -11,11 +11,11 @@ namespace anicodec {
 
 /// Turns triangles of a mesh that face against a surface of the same connectivity
 /// (turned_in_place()) the right way again, each by the least move of its corners that does it, and
-/// over again for those that this turns, up to 40 times. Where that goes in circles, what is around
-/// is evened out on the surface and moved again; that is kept where it halves what is turned.
-/// Positions become those of floats. Moves inner vertices alone. What is still turned then is left
-/// to limit_distance(). Returns the number of triangles it turned. Cost: that of turned_in_place()
-/// and little more.
+/// over again for those that this turns, up to 40 times. If that goes in circles, the neighbourhood
+/// is evened out on the surface and moved again; this is kept if it halves the number of turned
+/// triangles. Positions become those of floats. Moves inner vertices alone. Triangles still turned
+/// then are left to limit_distance(). Returns the number of triangles it turned. Cost: that of
+/// turned_in_place() and little more.
 uint32_t untangle(const Surface& surface, Positions* v);
 
 /// The same for a mesh of another connectivity than the surface, which has an index, and what

@@ -24,8 +24,9 @@ using Eigen::VectorXd;
 // comes next.
 constexpr Index kOfBase = 16;
 constexpr Index kFewestSketched = 48;
-// A space of all components has so many columns more: its first block lies in part outside of the motion, and so do those that
-// come when little of it is left. Noise of 592 to 608 vertices lost the last 8 to 16 components with half as many.
+// A space of all components has so many columns more: its first block lies in part outside of the
+// motion, and so do blocks that come when little motion is left. Noise of 592 to 608 vertices lost
+// the last 8 to 16 components with half as many.
 constexpr Index kBeyondRank = 32;
 
 double energy_of(const FrameView& clip, const Vector3d& origin) {

@@ -13,8 +13,9 @@
 
 namespace anicodec {
 
-/// Leaves a loop because a body elsewhere has thrown. No caller sees it: the loop around both throws what that
-/// body has thrown. Not an Error, so that nobody takes it for one about the input.
+/// Leaves a loop because a body elsewhere has thrown. No caller sees it: the loop around both
+/// rethrows the exception of that body. Not an Error, so that nobody takes it for one about the
+/// input.
 class ParallelCancelled : public std::exception {
  public:
   const char* what() const noexcept override { return "other work has failed"; }

@@ -36,7 +36,7 @@ class BasisFit {
   /// The weights that are coded first. One pass over the clip.
   TimeWeights exact_weights() const;
 
-  /// What a decoder gets of the weights.
+  /// The weights as a decoder gets them.
   void set_decoded(TimeWeights weights) { decoded_ = std::move(weights); }
 
   /// The coefficients that go best with the decoded weights, in steps. One pass over the clip.

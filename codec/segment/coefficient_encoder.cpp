@@ -184,7 +184,7 @@ bool CoefficientEncoder::round_together() {
   return true;
 }
 
-/// What a decoder makes of the residuals.
+/// Takes the residuals over as a decoder sees them.
 bool CoefficientEncoder::commit_chosen() {
   for (uint32_t i = 0; i < ranks(); ++i) {
     for (uint32_t c = 0; c < channels_; ++c) {

@@ -41,7 +41,7 @@ struct EncodedSegment {
   Bytes exact;                   ///< chunk DIFF
   BoundsRecord bounds;           ///< chunk BNDS, of positions; without numbers until measured
   std::shared_ptr<const EncodedPose> reference;  ///< of linear bases; segments may share it
-  /// What weights and layers decode to, if they were just encoded: opened once without decoding them.
+  /// The decoded weights and layers, if they were just encoded: opened once without decoding them.
   std::optional<DecodedBasis> decoded;
   const LearntSegment* continued =
       nullptr;  ///< what it was coded to go on with, as long as it is opened; may be null

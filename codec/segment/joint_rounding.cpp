@@ -16,9 +16,9 @@ namespace {
 constexpr float kNegligible = 0.12F;
 constexpr int kSweeps = 4;  // over all vertices, in turns from either end
 
-/// What to add to a residual q: 0, a step either way, or what makes it 0, whichever lowers the error
-/// and `lambda` times its bits most. `slope`: the product of its column and the error; `energy`: that
-/// of the column and itself; `zero_saves`: bits that its batch saves if it is 0.
+/// The best change of a residual q: 0, a step either way, or to zero, whichever lowers the error
+/// and `lambda` times its bits most. `slope`: the product of its column and the error; `energy`:
+/// that of the column and itself; `zero_saves`: bits that its batch saves if it is 0.
 int32_t best_change(int32_t q, float slope, float energy, const ResidualCosts& costs,
                     float zero_saves, float lambda) {
   // Nothing below moves a zero: half a step would have to be won.
@@ -79,8 +79,8 @@ class JointRounding::SparseSum {
     count_ = static_cast<size_t>(met - met_.data());
   }
 
-  /// Calls f(rank, value) for what has been added to, and begins anew. Where sums came to 0 on the way,
-  /// also f(rank, 0).
+  /// Calls f(rank, value) for what has been added to, and begins anew. Also calls f(rank, 0) for
+  /// sums that came to 0 on the way.
   template <class F>
   void take(const F& f) {
     for (size_t k = 0; k < count_; ++k) {

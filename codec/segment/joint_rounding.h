@@ -16,8 +16,8 @@ namespace anicodec {
 
 /// Rounds the residuals of a component together. While the weights W of the prediction stay as they
 /// are, a decoder's coefficients are linear in the residuals, y = (I - W)^-1 q: a residual moves
-/// all vertices that are predicted from its own, directly or not. What one vertex alone would round
-/// to zero may be worth its bits there, and more often the other way round.
+/// all vertices that are predicted from its own, directly or not. A residual that a vertex alone
+/// would round to zero may be worth its bits there; more often one that it would keep is not.
 ///
 /// Everything is by rank; coefficients and residuals are in steps. Memory: about half a
 /// kilobyte per vertex.

@@ -44,7 +44,7 @@ struct LinearBasis {
   Eigen::MatrixXd
       time;  ///< a column per component, orthonormal: 3 frames (trajectories) or frames (shapes)
 
-  /// Where the surface has regions, each has base and components of its own; energies and time of the
+  /// If the surface has regions, each has base and components of its own; energies and time of the
   /// whole are then empty. Else null and empty.
   std::shared_ptr<const RegionClips> clips;
   std::vector<LinearBasis> regions;

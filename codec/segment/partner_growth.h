@@ -60,7 +60,7 @@ class PartnerGrowth {
 
   const PartnerSurface& surface_;
   Rules rules_;
-  size_t steps_ = 0, wasted_ = 0;  ///< of the last growth, and of those that came to nothing
+  size_t steps_ = 0, wasted_ = 0;  ///< of the last growth, and how many of them led nowhere
   std::vector<uint32_t> map_, inverse_, sources_;
   std::priority_queue<Step> queue_;
 };

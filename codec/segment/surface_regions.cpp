@@ -58,7 +58,7 @@ struct Trajectories {
   MatrixXd base;
 };
 
-/// What a region explains of the motion of a vertex.
+/// How much of the motion of a vertex a region explains.
 class RegionModel {
  public:
   RegionModel(const Trajectories& all, const std::vector<uint32_t>& vertices) : all_(all) {

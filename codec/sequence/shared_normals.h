@@ -18,9 +18,9 @@ namespace anicodec {
 std::vector<uint32_t> share_normals(const Attribute& normals, std::span<const uint32_t> rows,
                                     std::span<const uint32_t> places, uint32_t place_count);
 
-/// What sequence.shared_normals would say of a source that gives normals: those of the first frame,
-/// vertices at one position taken as one. What it says where it says something; else empty. `flat`: of each
-/// polygon, whether it shares no normal with others; empty: none is so.
+/// sequence.shared_normals; if it is empty, the same worked out from the normals of the first frame,
+/// vertices at one position taken as one. Empty if the sequence has neither. `flat`: of each polygon, whether it shares no normal with others; empty: none is
+/// so.
 std::vector<uint32_t> known_shared_normals(const MeshSequence& sequence,
                                            const std::vector<bool>& flat = {});
 

@@ -34,9 +34,10 @@ Distortion distortion(const SurfaceTopology& topology, const Positions& before,
                       const Positions& after);
 
 /// The triangle of the surface below each triangle of a mesh of any connectivity: the one closest
-/// to its centre, by the index. Where that faces the other way, but walking from what is below a
-/// neighbour ends at one that does not, less than a tenth of its longest side away, that one: so
-/// the far side of a thin part is not mistaken for the near one.
+/// to its centre, by the index. If that triangle faces the other way, walks to the centre from the
+/// triangle below a neighbour, and takes the end of the walk if it faces the right way and is less
+/// than a tenth of its longest side away: so the far side of a thin part is not mistaken for the
+/// near one.
 std::vector<uint32_t> triangles_below(const SurfaceTopology& topology, const Positions& positions,
                                       const Surface& surface);
 

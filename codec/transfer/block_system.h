@@ -12,7 +12,8 @@
 
 namespace anicodec {
 
-// What the fits of this room solve to, and what they add to a diagonal, for vertices without equations.
+// The tolerance of the solver in the fits of this room, and the damping added to the diagonal for
+// vertices without equations.
 inline constexpr double kSolveTolerance = 1e-3, kDamping = 1e-6;
 
 /// A symmetric positive semi-definite system with three unknowns a vertex, whose equations couple a

@@ -77,7 +77,8 @@ class CloseFit {
     if (untangle(mesh_, surface_, &v_) > 0)
       distance_.update(v_, true);
     descend(&result);
-    // What came close by triangles that turned goes on without them, now from the best, now from where it ended.
+    // A fit that came close by turned triangles goes on without them, now from the best, now from
+    // where it ended.
     for (int k = 1; k < kMostDescents && least_score_ > kEnough; ++k) {
       if (k % 2 == 1)
         v_ = best_;

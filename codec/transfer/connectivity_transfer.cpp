@@ -70,8 +70,8 @@ class CarriedMesh {
 
   const Positions& last() const { return last_; }
 
-  /// Carries the mesh to a surface; it is posed by `landmarks` first. Where the softer fit raises
-  /// an alarm and the stiffer one does not, that one counts.
+  /// Carries the mesh to a surface; it is posed by `landmarks` first. If the softer fit raises an
+  /// alarm and the stiffer one does not, the stiffer one counts.
   Attempt try_surface(const SurfaceFrame& frame, const Surface& surface,
                       const TransferOptions& options, const std::vector<Landmark>& landmarks) {
     Attempt attempt;

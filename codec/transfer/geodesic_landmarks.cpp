@@ -171,7 +171,7 @@ struct Places {
   }
 };
 
-/// Those that agree with each other.
+/// The places that agree with each other.
 Places consistent(Places places, double edge) {
   const size_t n = places.size();
   std::vector<std::vector<double>> pairs(n, std::vector<double>(n, 0));

@@ -29,9 +29,9 @@ struct MeshPoint {
 struct MeshMap {
   FrameArray positions;           ///< of the mesh's vertices on the surface, vertices x 3
   std::vector<MeshPoint> points;  ///< the same as points of the surface, one for each vertex
-  /// Of each corner of the mesh's polygons: on the triangle of the surface that lies below the polygon at this
-  /// corner, so that what the surface has on either side of a seam stays apart. Weights below zero lie
-  /// beyond that triangle.
+  /// For each corner of the mesh's polygons, a point on the triangle of the surface below the
+  /// polygon at this corner: values on either side of a seam of the surface stay apart. Weights
+  /// below zero lie beyond that triangle.
   std::vector<MeshPoint> corners;
   Distortion before, after;    ///< of the rough map and of the result, from the mesh's own shape
   uint32_t turned = 0;         ///< triangles that face against the surface

@@ -244,7 +244,7 @@ enum anic_interpolation ANIC_INT32 {
   ANIC_INTERPOLATE_BEST = 3
 };
 
-/** What codes the poses of key-frames. */
+/** The coder of the poses of key-frames. */
 enum anic_keyframe_coder ANIC_INT32 {
   ANIC_KEYFRAMES_NATIVE = 0, /**< the coder of poses: any decoder plays the file */
   ANIC_KEYFRAMES_DRACO = 1,  /**< Draco, which decoders may lack */
@@ -280,8 +280,8 @@ enum {
                                       open; else bytes and the time of opening are in balance */
 };
 
-/** Follows and stops an encoding. All zero: nobody does. report() gets the name of the stage, and
- * the share of it that is done, 0 to 1; a stage may come again, as for every mesh. Anything but 0
+/** Follows and stops an encoding. All zero: nobody does. report() gets the name of the stage and the
+ * share of the stage that is done, 0 to 1; a stage may come again, as for every mesh. Anything but 0
  * ends the encoding with ANIC_E_CANCELLED. */
 typedef struct anic_encode_progress {
   void* user;
