@@ -21,7 +21,7 @@ class BoundSearch {
 
   bool empty() const { return trials_.empty(); }
 
-  /// What a trial told; both above 0.
+  /// The outcome of a trial; both above 0.
   void add(double setting, double outcome);
 
   /// The setting to try next, to come to `aim`, which is at most `bound`: by the line through the

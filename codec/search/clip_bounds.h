@@ -12,8 +12,8 @@
 namespace anicodec {
 
 /// Codes frames from `first` on so that every clip among them keeps its share of the error `rmse`
-/// (InputClip::tolerance), the worst of them close to it. Where clips have no bound of their own, as
-/// SegmentCoder::at_rmse(). Cost: a few searches of the step for each further one.
+/// (InputClip::tolerance), the worst of them close to it. If no clip has a bound of its own, the
+/// same as SegmentCoder::at_rmse(). Cost: a few searches of the step for each further one.
 std::optional<CodedPart> within_bounds(SegmentCoder& coder, const EncoderInput& input,
                                        uint32_t first, double rmse);
 

@@ -40,8 +40,9 @@ struct InputClip {
 
 /// The clip by coded vertices, and its way back to the source: shared by all ways of coding.
 struct EncoderInput {
-  /// Takes the positions over: they are put into coded order in place. Of a part, only its frames
-  /// remain, of a mesh that serves all parts. `laid_out`: the mesh, where a file has it; null: to be laid out.
+  /// Takes the positions over: they are put into coded order in place. For a part, only its frames
+  /// remain; the mesh serves all parts. `laid_out`: the mesh, where a file has it; null: to be laid
+  /// out.
   explicit EncoderInput(MeshSequence source, const std::optional<FrameRun>& part = {},
                         const MeshLayout* laid_out = nullptr);
 
@@ -61,7 +62,7 @@ struct EncoderInput {
   /// Root mean square over the source's vertices and some frames.
   double rmse(double squared, size_t frames) const;
 
-  /// What a decoder is to show.
+  /// The frames that a decoder is to show.
   FrameView shown() const {
     return {whole.empty() ? coded.data() : whole.data(), sequence.frame_count,
             layout.sizes.coded_vertices};
@@ -107,7 +108,7 @@ struct EncoderInput {
   MeshSequence sequence;  ///< the source without its positions
   MeshLayout layout;
   FrameArray coded;  ///< frames x coded vertices x 3
-  /// Where the motion of the whole was taken out: the same with it. Else empty.
+  /// The coded positions with the motion of the whole, if it was taken out. Else empty.
   FrameArray whole;
   std::vector<InputClip> clips;   ///< one at least, in the order of their frames
   std::vector<uint32_t> copies;   ///< source vertices of each coded one

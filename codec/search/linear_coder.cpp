@@ -29,8 +29,8 @@ constexpr size_t kFewComponents = 16;    // of regions: steps of what is found a
 constexpr double kComponentsOfRegions = -0.3;
 constexpr size_t kRichComponents = 24;   // of clips whose surface is
 constexpr size_t kFewestVertices = 200;  // of a region, on average
-// Of the bytes of the whole, by expectation, which ranks cuts badly: all below are tried; and of the best, by a trial
-// that missed the error.
+// Ratios to the bytes of the whole. By expectation, which ranks cuts badly, all below are tried;
+// and to the best, by a trial that missed the error.
 constexpr double kWorthTrying = 1.05, kFarFromBest = 1.06;
 // Errors of first trials are above the estimate by 1.06 to 1.25, 1.2 to 1.44 and 1.36 to 1.9 in 2, 4 and 8 regions.
 constexpr double kAimOfRegions = -0.24;
@@ -335,8 +335,8 @@ LinearCoder::Probed LinearCoder::probed(const Measured& trial, double rmse) {
   return result;
 }
 
-/// What weights and coefficients of a started choice with regions will take, about, by those of the
-/// whole: coefficients of a region are fewer and dearer, for they have more of the motion.
+/// Estimates the bytes of weights and coefficients of a started choice with regions from the bytes
+/// of the whole: coefficients of a region are fewer and dearer, for they have more of the motion.
 double LinearCoder::expected_bytes(const LinearChoice& choice) {
   constexpr double kOfWeight = 0.9, kOfCoefficient = 1.5;  // measured on pcow, crane, jumping
   const LinearBasis& b = basis(choice, choice.components_made);
@@ -444,8 +444,8 @@ double LinearCoder::choose_settings(double rmse, Steps wanted) {
   return least_;
 }
 
-/// Keeps the changes of the settings that help, each made to what those before it left. As many as
-/// there are threads are tried at a time: those after one that helps are then tried again.
+/// Tries each step on top of the kept ones and keeps it if it helps. One step per thread at a
+/// time; after a success the later ones are tried again.
 bool LinearCoder::try_steps(std::span<const LinearStep> steps, double rmse) {
   const auto threads = thread_count();
   const size_t most_failures = effort_ == Effort::kBest ? steps.size() + failures_ : kMostFailures;

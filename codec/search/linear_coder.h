@@ -31,8 +31,8 @@ class LinearCoder : public SegmentCoder {
   /// Steps that are tried: those that kinds are compared after, or all of the effort.
   enum class Steps { kFew, kAll };
 
-  /// The analysis, of the frames from `first_frame` on, must outlive the coder. What is called bytes below has what
-  /// opening is worth added, unless the `smallest` file is wanted.
+  /// The analysis, of the frames from `first_frame` on, must outlive the coder. Bytes below include
+  /// the worth of opening time, unless the `smallest` file is wanted.
   LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis, BasisKind kind,
               Effort effort, uint32_t layers, bool smallest, uint32_t first_frame = 0);
 

@@ -29,7 +29,7 @@ const std::vector<LinearStep>& opening_steps();
 /// The change that a step made to a choice, for `encode -v`: one of "finer or yet coarser".
 const char* meaning_of(const LinearStep& step, const LinearChoice& changed);
 
-/// What a search does beside the steps.
+/// Names of further features of a search, beside the steps.
 inline constexpr const char *kRegionsMean = "regions", *kJointRoundingMean = "joint rounding",
                             *kRefittedWeightsMean = "refitted weights";
 

@@ -7,8 +7,8 @@
 namespace anicodec {
 namespace {
 
-// Of coefficients, lines through dance, flag, face, chicken and horse at --kg 0.1: `anicodec_bench open`.
-// Of weights, about what a profile of the same shows.
+// Coefficients: lines through dance, flag, face, chicken and horse at --kg 0.1: `anicodec_bench
+// open`. Weights: about the share that a profile of the same shows.
 constexpr double kOfWeight = 110, kOfCoefficient = 1.4, kOfBit = 25;
 
 }  // namespace

@@ -21,15 +21,15 @@ namespace {
 // Compared at the ratio of errors that is best for the rival. Kinds of face are 14 % apart there, those of horse 5 %.
 constexpr double kBehindAtRatio = 1.06;
 
-/// Of bytes over 1 / RMSE; the flatter, the more of the file is mesh.
+/// The exponent of bytes over 1 / RMSE; the flatter, the more of the file is mesh.
 constexpr BoundSearch::Exponent kOfSizes{0.5, 0.05, 2};
 
 struct Lowest {
   double ratio = 0, price = std::numeric_limits<double>::infinity();
 };
 
-/// Where the parabola through the smallest price and those beside it is lowest, ratios by their
-/// logarithms; nowhere if the smallest is the first or the last.
+/// The minimum of the parabola through the smallest price and its neighbours, ratios by their
+/// logarithms; none if the smallest is the first or the last.
 Lowest lowest_of(const std::map<double, double>& prices) {
   const auto smallest =
       std::ranges::min_element(prices, {}, &std::pair<const double, double>::second);
@@ -157,7 +157,7 @@ double TargetSearch::rmse_of_size(SegmentCoder& coder) {
   return rmse;
 }
 
-/// Where a file keeps nothing of the motion.
+/// The error at which a file keeps nothing of the motion.
 double TargetSearch::coarsest_rmse() const {
   return std::max(input_.rmse_of_kg(100), 2 * input_.smallest_bound());
 }

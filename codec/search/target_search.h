@@ -50,7 +50,7 @@ class TargetSearch {
   /// trials of the coder tell.
   double typical_rmse(SegmentCoder& coder);
 
-  /// Asks for another size. What was learnt of the coders goes on to count.
+  /// Asks for another size. Knowledge learnt about the coders stays valid.
   void ask_size(double bytes) { target_ = {ErrorMetric::kSize, bytes, false}; }
 
   /// About how many trials a search takes that has so many coders yet to search, whose settings are chosen or not.
