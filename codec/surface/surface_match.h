@@ -7,13 +7,13 @@
 
 namespace anicodec {
 
-/// The largest opening: of the connected pieces of the boundary the one with the longest diagonal of its
-/// box, in parts of the diagonal of all. 0 for a closed mesh. Cost: O(triangles).
+/// The largest opening: the longest diagonal of the box of a connected piece of the boundary, as a share of
+/// the mesh's diagonal. 0 for a closed mesh. Cost: O(triangles).
 double largest_opening(const SurfaceTopology& topology, const Positions& positions);
 
-/// The opening of which one of two meshes has nothing because it is closed, as a hole that a decimater has
-/// filled; 0 where both are open or both closed. Throws Error(kInput) for one that is not small: of more
-/// than a twentieth of the diagonal.
+/// The largest opening of the open one of two meshes if the other is closed, as by a decimater that has
+/// filled a hole; 0 if both are open or both closed. Throws Error(kInput) for an opening of more than a
+/// twentieth of the diagonal.
 double check_openings(const SurfaceTopology& mesh, const Positions& positions,
                       const Surface& surface);
 
