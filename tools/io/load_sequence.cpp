@@ -153,8 +153,8 @@ class MeshReader {
   /// The bytes of the file that was read last.
   std::string_view text() const { return bytes_; }
 
-  /// Takes the looks of materials from the libraries that the mesh at `path`, read last, names. What
-  /// cannot be had is noted: it is no reason to refuse the clip.
+  /// Takes the looks of materials from the libraries that the mesh at `path`, read last, names. A
+  /// library that cannot be had is noted: it is no reason to refuse the clip.
   void read_looks(const std::string& path, const LoadOptions& options, PolygonLabels& materials) {
     for (const std::string& library : libraries_) {
       const fs::path relative = fs::path(library).lexically_normal();
@@ -336,7 +336,7 @@ void note_cache_beside(const std::string& mesh, const LoadOptions& options) {
   }
 }
 
-/// Compares a cache's first frame with its mesh, whose positions are not kept. Where one is the other
+/// Compares a cache's first frame with its mesh, whose positions are not kept. If one is the other
 /// turned from Y up to Z up or back, the axis that is up is known; other axes and units are noted.
 void compare_axes(const std::string& cache, std::span<const float> mesh, const LoadOptions& options,
                   MeshSequence& sequence) {

@@ -23,9 +23,9 @@ namespace anicodec::tools {
 struct LoadOptions {
   /// Overrides what the input says, an uneven table of times included; a scene is sampled at it.
   std::optional<FrameRate> rate = {};
-  /// Mesh of a lone vertex cache; empty: same stem .obj, .ply or .off beside it. Of a scene: the
-  /// name of a mesh or node, of an Alembic archive the path of a mesh or of what holds it; empty:
-  /// all of them.
+  /// Mesh of a lone vertex cache; empty: same stem .obj, .ply or .off beside it. For a scene: the
+  /// name of a mesh or node; for an Alembic archive the path of a mesh or of an object above it;
+  /// empty: all of them.
   std::string mesh = {};
   /// Animation of a scene, see GltfOptions.
   std::string clip = {};
@@ -47,7 +47,7 @@ struct LoadOptions {
   uint64_t memory = half_of_machine();
   /// Scenes may name files outside their folder.
   bool allow_outside = false;
-  /// The clip goes back into its scene, so that what surrounds it is not lost.
+  /// The clip goes back into its scene, which keeps all data around it.
   bool scene_stays = false;
   /// Stage "reading".
   Progress progress = {};
@@ -70,8 +70,8 @@ struct LoadOptions {
 MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOptions& options = {});
 
 /// Loads frames of one format (.obj .ply .off) whose connectivity may change: a mesh for each run
-/// of frames that share one. Of an Alembic archive: a mesh for each object and connectivity. Throws
-/// as load_sequence().
+/// of frames that share one. For an Alembic archive: a mesh for each object and connectivity.
+/// Throws as load_sequence().
 Scene load_topologies(std::span<const std::string> inputs, const LoadOptions& options = {});
 
 /// A glTF scene in one file with its clip as an extension, see write_moving_glb(): `clip` is that of

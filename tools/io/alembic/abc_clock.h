@@ -18,11 +18,11 @@ struct AbcClock {
   Timing timing;
 };
 
-/// All times at which one of the properties has a sample, those that nearly coincide once. What has
-/// a single sample stands still and asks for none, nor does what has the archive's default sampling
-/// beside others; where all have that one, the rate is unknown. With a rate, frames stand at
-/// multiples of its step from the first time to the last. Throws Error(kInput) for more frames than
-/// are possible, or than the bytes of the file can back.
+/// All times at which one of the properties has a sample, those that nearly coincide once. A
+/// property with a single sample stands still and asks for no time, nor does a property with the
+/// archive's default sampling beside others; if all have the default sampling, the rate is unknown.
+/// With a rate, frames stand at multiples of its step from the first time to the last. Throws
+/// Error(kInput) for more frames than are possible, or than the bytes of the file can back.
 AbcClock clock_of(const AbcArchive& archive, const std::vector<const AbcProperty*>& properties,
                   const std::optional<FrameRate>& rate);
 

@@ -267,8 +267,8 @@ class Converter {
     return joints;
   }
 
-  /// Shows the meshes of a node, which are those of one object with several materials, as one where they
-  /// move alike; each by a node of its own otherwise.
+  /// Shows the meshes of a node, the parts of an object with several materials, as one if they move
+  /// alike; each by a node of its own otherwise.
   void show(uint32_t parent, const std::vector<unsigned>& meshes) {
     const bool skinned = scene_.mMeshes[meshes[0]]->HasBones();
     const bool alike = std::ranges::all_of(meshes, [&](unsigned m) {

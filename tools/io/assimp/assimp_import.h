@@ -16,10 +16,10 @@ constexpr const char* kAssimpFunction = "anicodec_import_with_assimp";
 /// Takes bytes that are gone afterwards.
 using TakeBytes = void (*)(void* user, const char* bytes, size_t size);
 
-/// Reads a file with assimp, which may crash: to be called by run_guarded(). Of a file with stored
-/// frames (MD2; 0: none) each is a scene. Other files are read only in the folder of this one,
-/// unless `allow_outside`. Returns 0, and gives for each scene a size as uint64_t in native order and a GLB. After a
-/// fault it returns 1, and gives a text.
+/// Reads a file with assimp, which may crash: to be called by run_guarded(). Each stored frame of a
+/// file (`frames`, of MD2; 0: none) is a scene. Other files are read only in the folder of this
+/// one, unless `allow_outside`. Returns 0, and gives for each scene a size as uint64_t in native
+/// order and a GLB. After a fault it returns 1, and gives a text.
 using ImportWithAssimp = int (*)(const char* path, uint32_t frames, int allow_outside, void* user,
                                  TakeBytes take);
 

@@ -124,7 +124,7 @@ void add_stored_frame(MeshSequence frame, const std::string& path, MeshSequence&
   ++out.frame_count;
 }
 
-/// What a file holds.
+/// The contents of a file.
 struct AssimpFile {
   std::string bytes;
   std::vector<std::string_view> scenes;  ///< of `bytes`

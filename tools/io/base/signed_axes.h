@@ -32,9 +32,9 @@ struct ScaledTurn {
   double scale = 1;
 };
 
-/// The turn, of the 24 that put axes on axes, and scale that take points (3 numbers each) to others
-/// within a thousandth of these' extent; that which turns nothing where it does. Nothing where no
-/// turn does. Cost: O(points).
+/// The axis-aligned rotation (one of 24) and uniform scale that map `from` to `to` (3 numbers a
+/// point) within a thousandth of its extent; the identity if it does. None if there is no such map.
+/// Cost: O(points).
 std::optional<ScaledTurn> find_turn(std::span<const float> from, std::span<const float> to);
 
 }  // namespace anicodec::tools

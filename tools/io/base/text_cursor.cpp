@@ -10,7 +10,8 @@
 namespace anicodec::tools {
 namespace {
 
-/// What from_chars reports as out of range is zero, to float precision, if it is tiny and not huge.
+/// A number that from_chars reports as out of range is zero, to float precision, if it is tiny and
+/// not huge.
 bool is_tiny(std::string_view number) {
   size_t exponent = number.find_first_of("eE");
   if (exponent != std::string_view::npos)

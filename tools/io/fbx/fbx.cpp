@@ -78,7 +78,7 @@ class FbxReader {
       return message_.finish();
     }
     std::vector<std::string> still;
-    std::deque<FbxTake> takes;  // of those that may move
+    std::deque<FbxTake> takes;  // of stacks that may move
     for (const Stack& stack : stacks_) {
       if (may_move(scene_, *stack.anim))
         takes.emplace_back(scene_, stack.anim, options_, note_);
@@ -121,7 +121,7 @@ class FbxReader {
     take[0].bake(name, facings_of(take), message_);
   }
 
-  /// Takes become clips of one mesh, which has what any of them shows.
+  /// Takes become clips of one mesh: a surface is in it if any take shows it.
   static std::vector<FbxTake::Facings> facings_of(const std::deque<FbxTake>& takes) {
     std::vector<FbxTake::Facings> facings;
     for (const FbxTake& take : takes)

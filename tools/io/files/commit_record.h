@@ -12,7 +12,7 @@
 
 namespace anicodec::tools {
 
-/// A file that waits in a staging folder as "NUMBER" to be renamed to ../NAME; what that replaces
+/// A file that waits in a staging folder as "NUMBER" to be renamed to ../NAME; the file it replaces
 /// is kept as "NUMBER.old".
 struct Replacement {
   uint32_t number = 0;

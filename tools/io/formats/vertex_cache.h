@@ -22,7 +22,8 @@ struct VertexCache {
   uint64_t data_offset = 0;  ///< of frame_count x vertex_count x 3 floats
   std::endian order = std::endian::little;
   std::vector<float> times;  ///< seconds of each frame (MDD); PC2 has none
-  /// Of a PC2: the frame of the scene at which the first sample stands, and frames from sample to sample.
+  /// For PC2: the frame of the scene at which the first sample stands, and frames from sample to
+  /// sample.
   float first_frame = 0, frames_per_sample = 1;
 };
 

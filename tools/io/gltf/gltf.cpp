@@ -150,7 +150,7 @@ class Takes {
   /// Animations with a length that move no vertex.
   const std::vector<uint32_t>& still() const { return still_; }
 
-  /// Those that move a vertex, in the order of the file.
+  /// The animations that move a vertex, in the order of the file.
   std::vector<uint32_t> moving() const {
     std::vector<uint32_t> animations;
     for (const Moved& moved : moving_)

@@ -32,7 +32,7 @@ struct GltfOptions {
   uint64_t memory_limit = uint64_t{1} << 36;
   /// Buffers may stand outside the folder of the file, by URIs that climb with "..".
   bool allow_outside = false;
-  /// The clip goes back into the scene, so that what surrounds it is not noted as left out.
+  /// The clip goes back into the scene: data around it are not noted as left out.
   bool scene_stays = false;
   /// Faces of what has no normals are flat, as glTF says; false: nothing is known of their edges.
   bool flat_without_normals = true;
@@ -57,12 +57,12 @@ struct GltfOptions {
 MeshSequence parse_gltf(std::string_view bytes, std::string_view name, const GltfResolver& resolve,
                         const GltfOptions& options = {});
 
-/// Animations of a document as clips with their names: each of those named; of {"all"} each that has a
-/// length and moves a vertex; of no name the takes, which are animations played together with those that
-/// move something else, so that every one that moves a vertex is in a clip. An animation without a name is "clip N",
-/// a name that is there already gets a number. The only take, and a document without animations, is as
-/// parse_gltf() has it. options.memory_limit holds for all together. Throws as parse_gltf(),
-/// Error(kUsage) where "all" are none.
+/// Animations of a document as clips with their names: each named one; for {"all"} each that has a
+/// length and moves a vertex; without names the takes. A take combines animations that move
+/// different things, so that every animation that moves a vertex is in a clip. An animation without
+/// a name is "clip N", a name that is there already gets a number. The only take, and a document
+/// without animations, is as parse_gltf() has it. options.memory_limit holds for all together.
+/// Throws as parse_gltf(), Error(kUsage) where "all" are none.
 std::vector<MeshSequence> parse_gltf_clips(std::string_view bytes, std::string_view name,
                                            const GltfResolver& resolve, GltfOptions options,
                                            const std::vector<std::string>& names);

@@ -97,7 +97,7 @@ void for_all_elements(const GltfDocument& document, const GltfAccessor& accessor
                    [&](uint32_t i, const char* bytes) { take(indices[i], bytes); });
 }
 
-/// Zeros need no bytes, but those that belong to vertices have company that does.
+/// Accessors of zeros need no bytes, but accessors of vertices come with others that have bytes.
 void check_zeros(const GltfDocument& document, uint32_t index, const std::string& path) {
   constexpr uint64_t kMostForAByte = 16;
   const GltfAccessor& accessor = document.accessors[index];

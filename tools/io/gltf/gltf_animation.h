@@ -46,7 +46,7 @@ class GltfClip {
   /// True when a channel changes a value of one of the nodes.
   bool moves(const std::vector<bool>& nodes) const;
 
-  /// Plays another animation at the same time. What both move, moves as there.
+  /// Plays another animation at the same time. A node that both move moves as there.
   void join(GltfClip other);
 
   /// Sets what the animation moves, at a time. A key within `tolerance` seconds is taken as it is.

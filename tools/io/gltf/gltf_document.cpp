@@ -338,7 +338,7 @@ class Reader {
     return attributes;
   }
 
-  /// Whether an attribute is one of those that become positions or attributes.
+  /// Whether an attribute becomes positions or an attribute of the clip.
   static bool is_kept(std::string_view attribute) {
     constexpr std::string_view kKept[] = {"POSITION", "NORMAL",  "TANGENT", "TEXCOORD_",
                                           "COLOR_",   "JOINTS_", "WEIGHTS_"};

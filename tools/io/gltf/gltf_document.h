@@ -92,7 +92,7 @@ struct GltfMesh {
   std::vector<double> weights;            ///< of the targets
 };
 
-/// What happens to the front of a mesh's faces, in the pose at rest and in all animations.
+/// How the front of a mesh's faces changes, in the pose at rest and in all animations.
 enum class GltfFacing {
   kKept,
   kTurned,   ///< the global transform of the node mirrors
