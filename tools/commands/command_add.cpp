@@ -54,7 +54,7 @@ void write_file(const std::string& path, const Bytes& bytes, bool overwrite) {
   output.commit();
 }
 
-/// What the last clip was encoded for, if it can be asked of another one.
+/// The target of the last clip, if another clip can be asked for it.
 Target target_of(const ClipHome& home) {
   if (home.asked == ErrorMetric::kKg || home.asked == ErrorMetric::kMaxError ||
       home.asked == ErrorMetric::kRmse || is_motion(home.asked))

@@ -221,7 +221,8 @@ void add_analyze(Commands& commands, CommonOptions& common) {
   options.option("--counts", c->counts, "K,K,...", "Numbers of components to try");
   options.option("-o,--output", c->output, "REPORT.html|x.svg",
                  "Write a report with charts and pictures");
-  options.choice("--effort", c->effort, {kEfforts}, "Of the report's encodings (default normal)");
+  options.choice("--effort", c->effort, {kEfforts},
+                 "Effort of the report's encodings (default normal)");
   options.flag("--full", c->full, "Report other codecs, key-frames and shape spaces, too");
   options.flag("--spaces", c->spaces, "Principal components of three shape spaces instead");
   options.flag("--massage-study", c->massage, "Measure what Mesh Massage does to the clip instead");

@@ -50,10 +50,10 @@ differ in number, or in order because an .anic file was encoded with --order fre
 .anic file), method (vertices or surface), kg, rmse, max_error, max_error_percent, max_frame,
 max_vertex, psnr, sted, sted_spatial, sted_temporal, displacement_error, normal_error_mean,
 normal_error_max (degrees), hausdorff, hausdorff_percent, hausdorff_frame, hausdorff_mean,
-hausdorff_rms, radius_ratio_a, radius_ratio_b (of the triangles, 1 if equilateral),
-conformal_mean, conformal_max, area_mean, area_max (how much B changes the triangles of A, 1 if
-not; for equal faces), attributes (kind, name, max_error, rmse of single numbers), note. What was
-not measured is null, and so is an infinite PSNR.
+hausdorff_rms, radius_ratio_a, radius_ratio_b (of the triangles, 1 if equilateral), conformal_mean,
+conformal_max, area_mean, area_max (how much B changes the triangles of A, 1 if not; for equal
+faces), attributes (kind, name, max_error, rmse of single numbers), note. Numbers not measured are
+null, and so is an infinite PSNR.
 
 Examples:
   anicodec compare dance.pc2 dance.anic
@@ -357,7 +357,7 @@ void add_compare(Commands& commands, CommonOptions& common) {
       {"compare", "A B [options]", "Measure how far two clips are apart", kCompareFooter},
       [c, &common] { run(*c, common); });
   options.argument("A", c->a, "The original").required();
-  options.argument("B", c->b, "What is compared with it").required();
+  options.argument("B", c->b, "The clip compared with it").required();
   options.option("--mesh", c->mesh, "FILE",
                  "Mesh of a vertex cache (default: same stem beside it)");
   options.option("--fps", c->rate, "N[/D]",

@@ -74,9 +74,9 @@ surfaces of all others (anicodec massage transfer), for scans of one body.
 machine reads the whole clip, and join makes one file of the parts.
 
 --live encodes a capture while it goes on: INPUT is the mesh, frames of --fps come from the standard
-input. What is written grows by a file every --piece seconds; anic_stream plays one after the other,
-and all commands take them together for one clip, which join -o makes a file that seeks and opens as
-others do. --effort fast manages 10,000 vertices.
+input. The output grows by a file every --piece seconds. anic_stream plays these files one after the
+other; all other commands take them together for one clip, and join -o makes one file of them, which
+seeks and opens as others do. --effort fast manages 10,000 vertices.
 
 --batch encodes many clips to the folder -o, -j of them side by side: of a folder every scene or
 stage, every vertex cache with its mesh, and every run of numbered frames, of a list a clip per
@@ -84,8 +84,8 @@ line, its inputs separated by tabs. Clips that are done already, by the content 
 comes out, are left alone; one that fails does not stop the others.
 
 Texture coordinates, colours, other numbers, materials (values and names of images) and objects are
-kept; numbers in every frame, all others as they are in the first. Of normals the hard
-edges are: normals come from the positions of a frame. What else a scene has is named as not kept.
+kept; numbers in every frame, all others as they are in the first. Normals are kept as hard edges:
+they come from the positions of a frame. Other data of a scene are named as not kept.
 
 A LEN is in scene units (0.02), in per cent of the diagonal of the box around all frames (0.05%; of
 several clips each takes its own, --live takes that of --box or of the first piece, which is smaller

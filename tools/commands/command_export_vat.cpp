@@ -45,7 +45,7 @@ Forms:
            SideFX Labs Vertex Animation Textures 3 for Unity (soft bodies)
 
 EXR holds 16-bit floats, PNG 16-bit numbers; Godot and browsers read PNG with 8 bits. In the engine:
-no colour space, no filter, no mipmaps, no compression. What the textures do not hold is named. With
+no colour space, no filter, no mipmaps, no compression. Data that the textures lack are named. With
 --json one object: form, name, vertices, frames, files (each with file, bytes, and of a texture
 width, height, memory_bytes), memory_bytes, largest_error, rmse (both in metres), left_out, and with
 normals largest_normal_error, rms_normal_error (degrees).
@@ -69,7 +69,7 @@ struct ExportVatCommand {
   uint32_t max_size = 8192;
 };
 
-/// What no texture and no mesh holds, and what shaders will not do.
+/// Data that no texture and no mesh holds, and work that shaders will not do.
 std::vector<std::string> left_out(const Clip& clip, const MeshSequence& described) {
   std::vector<std::string> lost;
   for (const Attribute& a : described.attributes) {
@@ -98,7 +98,7 @@ std::vector<std::string> left_out(const Clip& clip, const MeshSequence& describe
   return lost;
 }
 
-/// The clips of a file, or the frames of it that are taken.
+/// The clips of a file, or the chosen frames of its one clip.
 std::vector<VatClip> played(const Clip& clip, const FrameRange& range) {
   std::vector<VatClip> all;
   uint32_t first = 0;
@@ -273,7 +273,7 @@ void add_export_vat(Commands& commands, CommonOptions& common) {
        "Write vertex-animation textures for engines without a plug-in", kExportVatFooter},
       [c, &common] { run(*c, common); });
   options.argument("CLIP", c->input, "The .anic file").required();
-  options.option("-o,--output", c->output, "FOLDER", "Where the files go").required();
+  options.option("-o,--output", c->output, "FOLDER", "The folder for the files").required();
   options.choice("--form", c->form, {kForms}, "Layout of the textures (default basis)");
   options.choice("--image", c->png, {kImages}, "Format of the textures (default exr)");
   options.option("--clip", c->clip, "NAME",

@@ -25,7 +25,7 @@
 namespace anicodec::tools {
 namespace {
 
-/// What of the motion of the whole is apart.
+/// The parts of the root motion that are kept apart.
 nlohmann::ordered_json root_words(uint8_t holds) {
   nlohmann::ordered_json words = nlohmann::ordered_json::array();
   if (holds & RootRecord::kMoves)
@@ -43,24 +43,23 @@ nlohmann::ordered_json events_json(const ClipRecord& clip) {
 }
 
 constexpr const char* kInfoFooter =
-    R"(--json prints an object a file: file, bytes, ratio (float32 positions against the file), bpfv,
-resident_bytes, opening_bytes, context_bytes (memory of the SDK: while open, at most while
-opening, for each instance), format, encoder, name, vertices, coded_vertices, faces (of the
-first mesh), meshes (name, vertices, coded_vertices, faces, frames: pairs of first and end of
-those that show it), frames, fps, fps_assumed, start_time, loop, closed (the last frame repeats
-the first), up, metres_per_unit, origin (positions count from it), order, diagonal, asked
-(metric, value), max_error, max_error_percent, rmse, kg, massaged, surface_error,
-surface_error_mean (those of a clip, of the first one), clips (name, first_frame, frames, fps,
-fps_assumed, start_time, loop, closed, diagonal, asked, max_error, max_error_percent, rmse, kg),
-attributes (mesh, kind, of, name, components, labels, looks, moves; of numbers, unit, whole:
-exact once rounded, ranges of components; of those that move, bytes, max_error, rmse in units of
-their values), segments (mesh, basis, of, reconstruction, first_frame, frames, components,
-regions, corrections; coder of key-frames), chunks (type, offset, size, required, mesh,
-segment). Lengths are in scene units, errors those the encoder measured. A live stream is
-described as the clip that its files make, with stream: files (offset, bytes, start_time,
-frames, has_mesh, key: begins anew, plays), losses, incomplete_bytes. If a file was lost, the
-stream stands alone, and the status is 3; the same, with status 0, of files that have different
-meshes.)";
+    R"(--json prints an object a file: file, bytes, ratio (float32 positions against the file),
+bpfv, resident_bytes, opening_bytes, context_bytes (memory of the SDK: while open, at most while
+opening, for each instance), format, encoder, name, vertices, coded_vertices, faces (of the first
+mesh), meshes (name, vertices, coded_vertices, faces, frames: pairs of first and end of the frames
+that show it), frames, fps, fps_assumed, start_time, loop, closed (the last frame repeats the
+first), up, metres_per_unit, origin (positions count from it), order, diagonal, asked (metric,
+value), max_error, max_error_percent, rmse, kg, massaged, surface_error, surface_error_mean (for
+several clips, of the first one), clips (name, first_frame, frames, fps, fps_assumed, start_time,
+loop, closed, diagonal, asked, max_error, max_error_percent, rmse, kg), attributes (mesh, kind, of,
+name, components, labels, looks, moves; of numbers, unit, whole: exact once rounded, ranges of
+components; of moving ones, bytes, max_error, rmse in units of their values), segments (mesh, basis,
+of, reconstruction, first_frame, frames, components, regions, corrections; coder of key-frames),
+chunks (type, offset, size, required, mesh, segment). Lengths are in scene units, errors those the
+encoder measured. A live stream is described as the clip that its files make, with stream: files
+(offset, bytes, start_time, frames, has_mesh, key: begins anew, plays), losses, incomplete_bytes. If
+a file was lost, the stream stands alone, and the status is 3; the same, with status 0, of files
+that have different meshes.)";
 
 struct Contents {
   uint64_t bytes = 0;
@@ -464,7 +463,7 @@ void print_promise(const ClipRecord& clip) {
                                 clip.surface_error_mean, clip.surface_error));
 }
 
-/// What is kept of the motion of the whole, and named times.
+/// Prints the root motion that is kept, and named times.
 void print_extras(const Contents& c, const ClipRecord& clip) {
   const auto number = static_cast<uint32_t>(&clip - c.clip.clips().data());
   std::string root, events;

@@ -52,8 +52,8 @@ other: methods, for each method, length_percent, largest_length_percent, angle_d
 volume_percent, folded and collapsed (angles and lengths of all frames). --study PAGE.html writes
 the same with pictures of up to five frames by each method, and charts of the errors by frame.
 
-Where vertices are at one place in all meshes, msgi, msgi-v and --refine, which know lengths and
-angles alone, place the mesh by them: a base that rests stays, as far as the method keeps its shape.
+Vertices at one place in all meshes hold the mesh there for msgi, msgi-v and --refine, which know
+lengths and angles alone: a base that rests stays, as far as the method keeps its shape.
 
 Examples:
   anicodec interpolate a.obj b.obj -o between.pc2 --frame-count 25

@@ -166,7 +166,7 @@ void add_massage(Commands& commands, CommonOptions& common) {
   options.option("--mesh", c->mesh, "FILE",
                  "Mesh of a lone vertex cache (default: same stem beside it)");
   options.number("--massage-strength", c->strength, "X", {},
-                 "Of shape against distance, between 0 and 1 (default 0.5)");
+                 "Weight of shape against distance, between 0 and 1 (default 0.5)");
   options.option("--massage-tolerance", c->tolerance, "LEN",
                  "How far the surface may move anywhere (default: as far as it needs)");
   options.number("--reference", c->reference, "FRAME", {},

@@ -19,8 +19,8 @@ namespace anicodec::tools {
 namespace {
 
 constexpr const char* kMassageFitFooter =
-    R"(Moves the vertices of MESH so that it lies closer to SURFACE, a mesh of any faces. The faces stay
-the same, with their texture coordinates and materials. Where no closer position is found the mesh
+    R"(Moves the vertices of MESH so that it lies closer to SURFACE, a mesh of any faces. The faces
+stay the same, with their texture coordinates and materials. If no closer position is found the mesh
 is written as it was. One of the two may be closed where the other has a small opening, such as a
 slit that a decimater has filled: up to a twentieth of the diagonal, which is told.
 

@@ -353,7 +353,7 @@ void add_render(Commands& commands, CommonOptions& common) {
                   {"render", "CLIP -o OUT [--against ORIGINAL] [options]",
                    "Draw a clip, beside its original and coloured by error", kRenderFooter},
                   [c, &common] { run(*c, common); });
-  options.argument("CLIP", c->input, "What to draw").required();
+  options.argument("CLIP", c->input, "The clip to draw").required();
   options
       .option("-o,--output", c->output, "OUT",
               "frame_%04d.png, x.png, clip.gif, clip.mp4 or clip.html")

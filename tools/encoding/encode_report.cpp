@@ -39,7 +39,7 @@ double percent(double length, double diagonal) {
   return length == 0 ? 0 : 100 * length / diagonal;
 }
 
-/// Of the clip that is worst, each by its own diagonal.
+/// The largest error of all clips, each in per cent of its own diagonal.
 double max_error_percent(const EncodeResult& result) {
   if (result.clips.size() < 2)
     return percent(result.max_error, result.diagonal);

@@ -8,8 +8,9 @@
 
 namespace anicodec::tools {
 
-/// encode --live: frames from the standard input become a live stream, a file for every few of them. The output
-/// has each file as soon as it is encoded; what is there stays whatever happens to those that follow.
+/// encode --live: frames from the standard input become a live stream, a file for every few of
+/// them. The output has each file as soon as it is encoded, and keeps it whatever happens to later
+/// ones.
 void encode_live(const EncodeArguments& command, const CommonOptions& common);
 
 }  // namespace anicodec::tools

@@ -58,7 +58,7 @@ class Studio {
   Camera camera_;
 };
 
-/// What the frames should be.
+/// The frames that the methods should find.
 struct Target {
   EdgeShape shape;
   double volume = 0;
