@@ -19,9 +19,9 @@ void leave_stages_to_others();
 
 /// The clips of a folder and the folders in it, in natural order of their names: every scene and
 /// stage, every vertex cache, and every two or more meshes whose names differ in a number at the
-/// end. Of a list (any other file): a clip per line, its inputs separated by tabs; empty lines and
-/// those that begin with # mean nothing. Throws Error(kInput) when nothing is found, Error(kUsage) when two
-/// clips have one name.
+/// end. For a list (any other file): a clip per line, its inputs separated by tabs; empty lines and
+/// lines that begin with # mean nothing. Throws Error(kInput) when nothing is found, Error(kUsage)
+/// when two clips have one name.
 std::vector<BatchClip> find_clips(const std::string& source);
 
 }  // namespace anicodec::tools

@@ -44,7 +44,7 @@ inline ByteView view_of(const std::string& bytes) {
   return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
 }
 
-/// Which clips a command can work on: kOne, those whose connectivity does not change.
+/// Which clips a command can work on: kOne, only clips of one connectivity.
 enum class Topologies { kOne, kAny };
 
 /// True for several meshes that no frame shows together: a clip whose connectivity changes.

@@ -161,9 +161,10 @@ void add_target(Options& options, EncodeArguments& a) {
   options.option("--rmse", a.rmse, "LEN", "Root mean square error");
   options.option("--displacement", a.displacement, "LEN",
                  "Largest error of a vertex's move from frame to frame: less jitter");
-  options.option("--sted", a.sted, "X", "STED, an error as viewers see it");
-  options.choice("--quality", a.quality, {kQualities},
-                 "A STED of 0.05, 0.02 or 0.01: seen beside the original, hardly, not at all");
+  options.option("--sted", a.sted, "X", "STED, a perceptual error");
+  options.choice(
+      "--quality", a.quality, {kQualities},
+      "Visible beside the original (good, STED 0.05), hardly (better, 0.02), not (best, 0.01)");
   options.option("--size", a.size, "BYTES",
                  "Smallest error in a file of at most 40000, 40k or 1.5M bytes");
   options.option("--bpfv", a.bpfv, "BITS", "The same, as bits per frame and vertex");
@@ -209,7 +210,7 @@ void add_massage_options(Options& options, EncodeArguments& a) {
   options.choice("--massage", a.massage, {kMassageModes},
                  "Move vertices along their surface first (default off)");
   options.number("--massage-strength", a.massage_strength, "X", {},
-                 "Of shape against distance, between 0 and 1 (default 0.5)");
+                 "Weight of shape against distance, between 0 and 1 (default 0.5)");
   options.option("--massage-tolerance", a.massage_tolerance, "LEN",
                  "How far the surface may move anywhere (default: as far as it needs)");
 }
@@ -220,7 +221,7 @@ void add_attributes(Options& options, EncodeArguments& a) {
   options.number("--uv-bits", a.attributes.uv_bits, "N", {1, 24},
                  "Texture coordinates in steps of 2^-N (default 12)");
   options.number("--colour-bits", a.attributes.colour_bits, "N", {1, 16},
-                 "Of a component of a colour (default 8)");
+                 "Bits for each component of a colour (default 8)");
   options.option("--attribute-error", a.attribute_error, "X",
                  "Largest error of colours, texture coordinates and other numbers that change, in "
                  "their own units or per cent of their range (default: half a step of "
@@ -249,7 +250,7 @@ void add_metadata(Options& options, EncodeArguments& a) {
   options.repeated("--event", a.events, "[CLIP:]NAME=SECONDS",
                    "A named time of the clip, from its first frame on, or of one of several clips");
   options.repeated("--meta", a.metadata, "KEY=VALUE",
-                   "What the file says of itself, as author=, licence=, source=: shown by info");
+                   "Facts to store in the file, as author=, licence=, source=: shown by info");
   options.option("--meta-file", a.metadata_file, "FILE.json", "The same, as a JSON object");
   options.flag("--root-motion", a.root_motion,
                "Keep the motion of the whole along the ground, and its turn about the up axis, "
@@ -326,11 +327,12 @@ void add_arguments(Options& options, EncodeArguments& a) {
                "INPUT is a mesh, its frames come from the standard input: float32 x, y, z of each "
                "vertex, little-endian");
   options.number("--piece", a.piece, "SECONDS", {0.001, 3600},
-                 "Of --live, what is encoded at a time (default 1)");
-  options.number("--key-every", a.key_every, "SECONDS", {0, 1e6},
-                 "Of --live, a piece that does without those before it (default 4; 0: every one)");
+                 "Length of a piece of --live (default 1)");
+  options.number(
+      "--key-every", a.key_every, "SECONDS", {0, 1e6},
+      "Time between pieces of --live that need none before them (default 4; 0: all are such)");
   options.option("--box", a.box, "LEN",
-                 "Of --live, the diagonal that percentages are of (default: the first piece's)");
+                 "Diagonal for percentages of --live (default: the first piece's)");
   add_target(options, a);
   add_method(options, a);
   add_massage_options(options, a);

@@ -86,7 +86,7 @@ class Options {
   Option& number(const std::string& names, double& value, const std::string& word,
                  Bounds<double> bounds, const std::string& text);
 
-  /// Numbers separated by commas, which replace those that are there.
+  /// Numbers separated by commas, which replace the present ones.
   Option& numbers(const std::string& names, std::vector<double>& values, const std::string& word,
                   Bounds<double> bounds, const std::string& text);
   Option& numbers(const std::string& names, std::vector<uint32_t>& values, const std::string& word,

@@ -192,7 +192,7 @@ Basis find_basis(const VatSource& source, const VatOptions& options, const Basis
   basis.positions = reduced(offsets, all * rmse * rmse, bounds.most);
   check_count(source, basis.positions, bounds, "positions", "--rmse");
   if (with_normals) {
-    // Of unit vectors: an angle's chord.
+    // The chord of an angle between unit vectors.
     const double chord = 2 * std::sin(bounds.rms_angle * std::numbers::pi / 360);
     basis.normals = reduced(normals, all * chord * chord, bounds.most);
     check_count(source, basis.normals, bounds, "normals", "--normal-error (or --no-normals)");
@@ -209,7 +209,7 @@ struct Decoding {
   double number(float texel) const { return double{texel} * scale + bias; }
 };
 
-/// Of PNG, for numbers from -largest to largest: 0 is a texel.
+/// Decoding of PNG, for numbers from -largest to largest: 0 is a texel.
 Decoding of_png(double largest) {
   constexpr double kSteps = 65535, kZero = 32768;
   const double scale = std::max(largest, 1e-30) * kSteps / (kSteps - kZero);
@@ -302,7 +302,7 @@ Textures filled(const VatSource& source, const VatOptions& options, const Basis&
   return t;
 }
 
-/// What a shader computes of a vertex: the sum over some layers.
+/// The sum that a shader computes for a vertex, over some layers.
 std::array<double, 3> sum(const Textures& t, uint32_t v, uint32_t f, uint32_t first_layer,
                           uint32_t layers, uint32_t column) {
   std::array<double, 3> x{};

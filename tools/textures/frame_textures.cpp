@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Vector = std::array<double, 3>;
 
-/// What textures hold of a vertex in a frame.
+/// The contents of the textures for a vertex in a frame.
 struct Shown {
   Vector offset{}, normal{};
 };
@@ -88,7 +88,7 @@ class Frames {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
   }
 
-  /// Of the offsets in other axes; 0 is among them.
+  /// The range of the offsets in other axes; 0 is among them.
   Range range(const Axes& axes) const {
     Range range{{0, 0, 0}, {0, 0, 0}};
     visit("looking", [&](uint32_t, std::span<const float> positions, std::span<const float>) {

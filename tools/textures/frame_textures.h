@@ -11,8 +11,9 @@ namespace anicodec::tools {
 
 /// OpenVAT 1.1, packed normals: NAME_vat holds offsets from the first frame, in Blender's axes (x, -z, y), from 0 to 1
 /// between the Min and Max of NAME-remap_info.json; a row for each frame, and as many below for the normals, from 0 to 1.
-/// Where a row does not hold the vertices, the rows of all frames follow for the next ones. NAME.glb is the first frame.
-/// Throws Error(kInput) for textures that pass the limit. Cost: three passes over the frames.
+/// If a row is too short for the vertices, the rows of all frames follow for the next ones.
+/// NAME.glb is the first frame. Throws Error(kInput) for textures that pass the limit. Cost: three
+/// passes over the frames.
 VatResult make_openvat(const VatSource& source, const VatOptions& options);
 
 /// SideFX Labs Vertex Animation Textures 3, soft bodies, as its shader graphs for Unity read them: offsets from

@@ -10,7 +10,7 @@
 namespace anicodec::tools {
 namespace {
 
-// What tools/CMakeLists.txt makes of the files.
+// Made by tools/CMakeLists.txt of the files of shaders.
 constexpr VatShader kShaders[] = {
 #include "anicodec_vat_shaders.inc"
 };

@@ -16,7 +16,7 @@ struct VatShader {
   std::string_view text;
 };
 
-/// Those of engines, separated by commas. Throws Error(kUsage) for another name.
+/// The shaders for engines, separated by commas. Throws Error(kUsage) for another name.
 std::vector<VatShader> shaders_for(const std::string& engines);
 
 }  // namespace anicodec::tools
