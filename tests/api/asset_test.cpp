@@ -380,7 +380,7 @@ TEST(AnicMemory, NothingIsAllocatedAfterOpening) {
     options.allocator = memory.allocator();
     expect_no_allocation(open(file, &options), memory);
 
-    // Of a stream, when it becomes playable.
+    // A stream, when it becomes playable.
     anic_stream* stream = nullptr;
     ASSERT_EQ(anic_create_stream(&options, &stream), ANIC_OK);
     anic_stream_info info = ANIC_INIT(anic_stream_info);

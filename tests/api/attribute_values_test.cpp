@@ -55,7 +55,7 @@ TEST(AnicAttributeValues, AreThoseOfTheFrameChosen) {
                 bounds[a])
           << "attribute " << a << ", frame " << frame;
   }
-  // What was shown before.
+  // The frame shown before.
   EXPECT_LE(error_at(values(asset, context, kHeat, ANIC_WHEN_PREVIOUS),
                      attributed_source().attributes[kHeat], 20),
             bounds[kHeat]);
@@ -179,7 +179,7 @@ TEST(AnicAttributeValues, RefuseWhatMakesNoSense) {
             ANIC_E_ARGUMENT);
 }
 
-// What a shader does with the basis of an attribute.
+// The sum that a shader forms with the basis of an attribute.
 TEST(AnicAttributeValues, ComeFromTheBasisAsPositionsDo) {
   const Asset asset = open(heated());
   const Context context = context_of(asset);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What the encoder writes by way of Draco passes its guard and comes back, and nothing that passes
+// Streams that the encoder writes by Draco pass its guard and come back, and no stream that passes
 // takes more of the heap than the limits announce.
 #include "codec/connectivity/draco_encode.h"
 #include "codec/connectivity/mesh_layout.h"

@@ -9,7 +9,7 @@
 namespace anicodec {
 namespace {
 
-/// What was taken from the heap while a file was looked at, opened, played and closed.
+/// Heap memory taken while a file was looked at, opened, played and closed.
 struct Taken {
   size_t announced = 0, opening = 0, query = 0, playing = 0;
   int64_t left = 0;

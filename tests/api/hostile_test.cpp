@@ -21,7 +21,7 @@ struct Entry {
   Bytes bytes;
 };
 
-/// What tests/conformance/MANIFEST lists: "valid", "invalid" or "limit".
+/// Files of a kind in tests/conformance/MANIFEST: "valid", "invalid" or "limit".
 std::vector<Entry> listed(const std::string& wanted) {
   const std::string folder = std::string(ANICODEC_SOURCE_DIR) + "/tests/conformance/";
   std::ifstream manifest(folder + "MANIFEST");
@@ -183,7 +183,7 @@ TEST(SlowHostile, ChangedBytesAreNoticed) {
   }
 }
 
-// With checksums that fit, so that what is inside is decoded.
+// With checksums that fit, so that the chunks' contents are decoded.
 TEST(SlowHostile, ChangedBytesOfAChunkAreSurvived) {
   size_t refused = 0, all = 0;
   for (const Entry& entry : listed("valid")) {

@@ -30,7 +30,7 @@ class StepNames : public DecodingTrace {
   std::set<std::string> names_;
 };
 
-/// Where the chunks of a file end.
+/// The ends of the chunks of a file.
 std::vector<size_t> ends_of_chunks(const Bytes& file) {
   ContainerReader reader;
   EXPECT_TRUE(reader.open(file).ok());

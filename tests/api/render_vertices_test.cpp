@@ -44,7 +44,7 @@ std::vector<float> render_positions(const Plan& plan, const Context& context) {
   return out;
 }
 
-/// What a corner carries: its vertex, its values, its normal.
+/// The data of a corner: its vertex, its values, its normal.
 std::vector<float> carried(const Asset& asset, uint32_t corner, const std::vector<float>& normals) {
   anic_polygons polygons = ANIC_INIT(anic_polygons);
   anic_get_polygons(asset.get(), 0, &polygons);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What opening costs grows with what the limits announce, not with products of it: crafted files of
+// The cost of opening grows with the announced limits, not with products of them: crafted files of
 // growing size (spec/14-security.md, section 2).
 #include "codec/connectivity/mesh_layout.h"
 #include "codec/sequence/mesh_sequence.h"
@@ -31,7 +31,7 @@ double seconds(const Bytes& file) {
   return least;
 }
 
-/// What more segments take, of a mesh of so many triangles.
+/// Time that more segments take, of a mesh of so many triangles.
 double more_segments(uint32_t triangles, uint32_t components, bool own_pose) {
   double taken[2];
   for (const uint32_t more : {0U, 1U}) {

@@ -13,7 +13,7 @@
 
 namespace anicodec::bench {
 
-/// Where the bytes of a file of one mesh went.
+/// Shares of the bytes of a file of one mesh.
 struct ByteShares {
   uint64_t mesh = 0;         ///< connectivity and what restores the source's mesh
   uint64_t pose = 0;         ///< reference pose, key-frames
@@ -43,7 +43,7 @@ inline auto opening_of_prefix(ByteView bytes) {
   return opening_of(bytes, options);
 }
 
-/// What a host has of a file once the first chunk of a type is there.
+/// The bytes that a host has once the first chunk of a type is there.
 ByteView up_to_the_first(const char (&type)[5], ByteView file);
 
 /// An encoding with what it took.

@@ -17,7 +17,7 @@ namespace anicodec::bench {
 
 using namespace peers;  // what is compared with
 
-/// What the sub-commands share.
+/// Options that the sub-commands share.
 struct BenchOptions {
   std::vector<std::string> clips;  ///< words for load_clip()
   BasisChoice basis = BasisChoice::kAuto;
@@ -103,10 +103,10 @@ Table run_keyframes(const BenchOptions& options, const std::vector<uint32_t>& co
 Table run_msgi_speed(const std::vector<uint32_t>& vertex_counts, int runs);
 
 /// Clips whose vertices slide by noise of so many mean edges, and massaged: size at a KG error and
-/// surface distance against the clean clip. Of the first `frames` frames; 0: all.
+/// surface distance against the clean clip. `frames`: only the first ones; 0: all.
 Table run_massage_sliding(const BenchOptions& options, double kg, double edges, uint32_t frames);
 
-/// What the automatic choice of the massage does with clips as they are.
+/// The decisions of the automatic massage on clips as they are.
 Table run_massage_auto(const BenchOptions& options, double kg);
 
 /// Frame 0 decimated to a quarter of its vertices by quadrics and fitted to itself.

@@ -24,7 +24,7 @@
 namespace anicodec::bench {
 namespace {
 
-/// What a child process finds: its memory is that of this work alone.
+/// The result of work in a child process, whose memory is that of this work alone.
 nlohmann::ordered_json in_a_process(const std::function<nlohmann::ordered_json()>& work) {
   int ends[2];
   if (pipe(ends) != 0)

@@ -66,7 +66,7 @@ struct Arguments {
 
 using Run = std::function<std::vector<Table>(Arguments&)>;
 
-/// What the commands share: their table, the values of their options, and those of every command.
+/// Shared by the commands: their table, the values of their options, and the common options.
 struct Bench {
   tools::Commands& commands;
   tools::CommonOptions& common;

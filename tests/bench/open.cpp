@@ -79,7 +79,7 @@ int64_t minor_faults() {
   return usage.ru_minflt;
 }
 
-/// What opening takes of memory.
+/// Memory that opening takes.
 struct MemoryUse {
   double per_coefficient = 0;  ///< bytes at the peak
   int64_t faults = 0, faults_mapped = 0;

@@ -15,7 +15,7 @@ class Product {
   virtual void run() = 0;
 };
 
-/// What playing is compared with, built for one instruction set.
+/// Rivals of playing, built for one instruction set.
 struct PlayPeers {
   /// Reads all numbers once, from the first to the last; returns their sum.
   int32_t (*read_all)(const int16_t* q, size_t count);
@@ -32,7 +32,8 @@ struct PlayPeers {
 extern const PlayPeers kPlayPeers256;  // AVX2 and FMA on x86, else what the build is for
 extern const PlayPeers kPlayPeers512;  // AVX-512 (F, DQ, VL) on x86
 
-/// Those for the instruction set of the fastest playing kernels, or null where they cannot run.
+/// The rivals for the instruction set of the fastest playing kernels, or null where they cannot
+/// run.
 const PlayPeers* play_peers();
 
 }  // namespace anicodec::bench

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What playing is compared with. The including file is compiled once per instruction set, and gives
-// Eigen another name there, lest the linker mix its functions with those for other vectors.
+// Rivals of playing. The including file is compiled once per instruction set, and gives Eigen
+// another name there, lest the linker mix its functions with those for other vectors.
 #ifndef ANICODEC_TESTS_BENCH_PLAY_PEERS_LANES_H_
 #define ANICODEC_TESTS_BENCH_PLAY_PEERS_LANES_H_
 

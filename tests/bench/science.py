@@ -86,7 +86,7 @@ def npz(values):
 
 
 def hdf5(values):
-    """What XDMF points to: a data set for each step, shuffled and deflated."""
+    """The HDF5 file that XDMF points to: a data set for each step, shuffled and deflated."""
     import h5py
     stream = io.BytesIO()
     with h5py.File(stream, "w") as file:

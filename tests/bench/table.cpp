@@ -11,7 +11,7 @@
 namespace anicodec::bench {
 namespace {
 
-/// Of Markdown, where a bar would end the cell.
+/// Escapes bars, which would end a cell of Markdown.
 std::string escaped(std::string text) {
   for (size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
     text.insert(at, 1, '\\');

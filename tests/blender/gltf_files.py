@@ -27,10 +27,10 @@ def animations_of(path):
 
 
 def there_and_back(command, path, folder):
-    """What Blender is to compare of a file, or a fault of encode or decode."""
+    """The case that Blender is to compare for a file, or a fault of encode or decode."""
     name = path.stem
     animations = animations_of(path)
-    clip = ["--clip", animations[0]] if len(animations) > 1 else []  # that which Blender shows
+    clip = ["--clip", animations[0]] if len(animations) > 1 else []  # Blender shows the first
     encoded = subprocess.run([command, "encode", path, *clip, "--effort", "fast", "-f", "-o", f"{name}.anic", "--json"],
                              cwd=folder, text=True, capture_output=True)
     if encoded.returncode != 0:

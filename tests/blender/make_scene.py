@@ -94,7 +94,7 @@ def add_crate():
 
 
 def record():
-    """What the scene shows: positions in the world, polygons, texture coordinates, materials."""
+    """Contents of the scene: positions in the world, polygons, texture coordinates, materials."""
     scene, truth = bpy.context.scene, {}
     for name in ("Arm", "Crate"):
         frames = []

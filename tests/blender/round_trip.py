@@ -15,7 +15,7 @@ import sys
 SKIPPED = 77
 HERE = pathlib.Path(__file__).resolve().parent
 FRAMES, RATE = 36, 25
-# What encode is given, what decode is to write, and whether the source has told the rate.
+# Inputs of encode, the output of decode, and whether the source has told the rate.
 CASES = {
     "glb": (["scene.glb"], "glb_back.glb", True),
     "fbx": (["scene.fbx", "--clip", "Rig|Wave+Carrier|Carry"], "fbx_back.glb", True),

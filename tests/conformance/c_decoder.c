@@ -79,7 +79,7 @@ static void put_float(FILE* file, float x) {
   put(file, bits);
 }
 
-/* What an element of 16 bits stands for. */
+/* The value of an element of 16 bits. */
 static double value_of(anic_format format, uint16_t bits) {
   if (format == ANIC_FORMAT_UNORM16X3 || format == ANIC_FORMAT_UNORM16X4)
     return bits / 65535.0;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
-"""What a decoder writes, for tests: a PC2 vertex cache and the faces of an OBJ file."""
+"""The output of a decoder, for tests: a PC2 vertex cache and the faces of an OBJ file."""
 import hashlib
 import pathlib
 import struct

@@ -6,7 +6,7 @@
 usage: run.py [--any-code] [--without PART]... [--memory BYTES] [--folder FOLDER] [--stop] COMMAND...
        as: run.py --any-code --without streams --without bounds --without metadata --without origin anicodec decode -q -f --clip all {file} -o {out}.pc2
 
-COMMAND decodes {file}, or refuses it with the code of spec/12-errors.md as its exit status, without a signal. Of a file that it decodes it writes
+COMMAND decodes {file}, or refuses it with the code of spec/12-errors.md as its exit status, without a signal. For a file that it decodes it writes
   {out}.pc2, {out}.obj      positions and faces of the first mesh
   {out}.1.pc2, {out}.1.obj  of the second, and so on; not-a-number where a mesh is not there. May be left out: then
                             positions of files with several meshes are not compared

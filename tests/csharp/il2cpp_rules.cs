@@ -42,7 +42,7 @@ internal static class Program
         Console.WriteLine(where.DeclaringType + "." + where.Name + " " + what);
     }
 
-    /// <summary>Whether a value goes to C as it is, or as one of those that IL2CPP passes by itself.</summary>
+    /// <summary>Whether a value goes to C as it is, or is of a type that IL2CPP passes by itself.</summary>
     private static bool Passes(Type type)
     {
         if (type.IsByRef)

@@ -21,7 +21,7 @@ def skip_if_sanitized(program):
 
 
 def run(*command, **variables):
-    """What `command` prints, run with `variables` in its environment; ends the test if it fails."""
+    """The output of `command`, run with `variables` in its environment; ends the test if it fails."""
     environment = {**os.environ, "LIBGL_ALWAYS_SOFTWARE": "1", **variables}
     result = subprocess.run([*map(str, command)], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                             env=environment)

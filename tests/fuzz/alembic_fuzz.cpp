@@ -29,7 +29,7 @@ bool is_ordinary(const Scene& scene) {
   return ordinary;
 }
 
-/// What has been accepted is valid, and an archive of it reads back with the same positions.
+/// An accepted scene is valid, and an archive of it reads back with the same positions.
 void round_trip(Scene scene) {
   for (const SceneMesh& mesh : scene.meshes)
     check(mesh.sequence);

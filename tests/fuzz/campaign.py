@@ -53,7 +53,7 @@ def seeds(programs, name):
 
 
 class Campaign:
-    """What has been run so far, in a folder."""
+    """The runs so far, in a folder."""
 
     def __init__(self, folder, targets):
         self.folder, self.targets = folder, targets

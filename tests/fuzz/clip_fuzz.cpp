@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-// Any chunks through the opening of a file: checksums and places are repaired first, so that what
-// is inside the chunks gets decoded. What opens, plays, with finite positions, in the memory that
-// the limits announce.
+// Any chunks through the opening of a file: checksums and places are repaired first, so that the
+// contents of the chunks get decoded. An asset that opens plays, with finite positions, in the
+// memory that the limits announce.
 #include "sdk/clip/clip.h"
 #include "sdk/clip/memory_estimate.h"
 #include "tests/fuzz/fuzz_file.h"

@@ -62,7 +62,7 @@ def damaged(data, chance):
 
 
 def fault(result, name, folder):
-    """What is wrong with a run; nothing if it is as it should be."""
+    """The fault of a run; nothing if it is as it should be."""
     text = result.stderr.decode(errors="replace")
     if result.returncode not in (DONE, INPUT, KIND):
         return f"status {result.returncode}: {text[-2000:]}"

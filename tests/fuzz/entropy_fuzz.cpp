@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-// Any bytes through the entropy decoders. The first byte picks the model, the second its size. What
-// a decoder accepts, the encoder writes again, byte for byte.
+// Any bytes through the entropy decoders. The first byte picks the model, the second its size.
+// Numbers that a decoder accepts, the encoder writes again, byte for byte.
 #include "format/coding/binary_coder.h"
 #include "format/coding/coefficient_model.h"
 #include "format/coding/rans_coder.h"

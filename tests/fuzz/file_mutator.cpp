@@ -188,7 +188,7 @@ class FileMutator {
     }
   }
 
-  /// What `file` is behind itself.
+  /// Appends `file` as a continuation of itself.
   void append_continuation(const FuzzParts& file) {
     FuzzParts next = file;
     next.parts.erase(std::remove_if(next.parts.begin(), next.parts.end(),

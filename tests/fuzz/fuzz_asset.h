@@ -67,7 +67,7 @@ struct CappedMemory {
   }
 };
 
-/// What opening a file may take of the global heap: what Draco announces, else nothing.
+/// Global heap that opening a file may take: as much as Draco announces, else none.
 inline size_t announced_heap(const Bytes& file, const anic_options& options) {
   anic_requirements needs = ANIC_INIT(anic_requirements);
   const HeapCount heap;
@@ -145,7 +145,7 @@ inline void check_state(const anic_asset* asset, const anic_context* context, ui
     require(std::isfinite(x));
 }
 
-/// What a host does with an asset, some of it wrong; nothing of it allocates.
+/// Calls of a host on an asset, some of them wrong; none of them allocates.
 inline void sample(const anic_asset* asset, CappedMemory* memory, Script script) {
   anic_asset_info info = ANIC_INIT(anic_asset_info);
   anic_get_asset_info(asset, &info);

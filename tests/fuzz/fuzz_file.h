@@ -66,8 +66,8 @@ struct FuzzParts {
   }
 };
 
-/// The same chunks with what the table says of them made right, so that what is inside them gets
-/// decoded; as it is if there is no table.
+/// The same chunks with the entries of the table made right, so that their contents get decoded; as
+/// it is if there is no table.
 inline Bytes repaired(ByteView file) {
   FuzzParts parts;
   return parts.read(file) ? parts.write() : Bytes(file.data, file.data + file.size);

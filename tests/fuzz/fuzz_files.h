@@ -19,7 +19,8 @@ struct FuzzFile : FuzzParts {
   Bytes bytes;
 };
 
-/// Those whose chunks chunk_fuzz changes, in its order: each kind of chunk and coder, quickly decoded.
+/// The files whose chunks chunk_fuzz changes, in its order: each kind of chunk and coder, quickly
+/// decoded.
 inline std::vector<FuzzFile> fuzz_files() {
   std::vector<FuzzFile> result;
   for (const char* name :

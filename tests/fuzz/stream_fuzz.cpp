@@ -64,7 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
           require(heap.peak() <= most_heap);
         }
         require(open != ANIC_E_INTERNAL && open != ANIC_E_MEMORY);
-        // What follows the end of a file is the next one of the stream.
+        // Bytes behind the end of a file are the next one of the stream.
         if (info.complete && info.file_number == 0 && expected != ANIC_E_TRAILING_BYTES)
           require(open == expected);
         if (asset)

@@ -4,8 +4,8 @@
 """Plants single errors in a decoder and counts those that the conformance files catch.
 
 usage: run.py [--work FOLDER] [--every N] [--jobs N] [--least PERCENT] [--fits] [--tree FOLDER --command WORDS] [ERRORS...]
-Each entry of ERRORS (default: errors.txt here) names a file and changes one piece of it that occurs once:
-    # Chapter of the specification: what follows, up to the next such line, is of it.
+Each entry of ERRORS (default: errors.txt here) names a file and changes a text that occurs once in it:
+    # Chapter of the specification, for the entries up to the next such line.
     sdk/mesh/map_coding.h
     - old text
     + new text
@@ -32,7 +32,7 @@ MAIN = "tests/conformance/sdk_decoder.cpp"
 
 
 def sources():
-    """What the decoder is made of: the kernels of one instruction set, and nothing that stands in for something absent."""
+    """Sources of the decoder: the kernels of one instruction set, and nothing that stands in for something absent."""
     found = [MAIN]
     for module in ("format", "sdk"):
         for path in sorted((ROOT / module).rglob("*.cpp")):
@@ -55,7 +55,7 @@ def compiled(name, folder, overlay=None):
 
 
 def uses(name, folder):
-    """What a compiled source includes, as names below the checkout."""
+    """The includes of a compiled source, as names below the checkout."""
     words = shlex.split((folder / (name.replace("/", "_") + ".d")).read_text().replace("\\\n", " "))
     paths = (pathlib.Path(word) for word in words[1:])
     return {p.relative_to(ROOT).as_posix() for p in paths if p.is_absolute() and p.is_relative_to(ROOT)}

@@ -66,7 +66,7 @@ def cut_growth(now, before):
 
 
 def difference(now, reference, work):
-    """What breaks programs that were built with the reference; empty if nothing does."""
+    """Changes that break programs built with the reference; empty if none does."""
     cut_growth(now, ElementTree.parse(reference).getroot())
     description = work / "now.abi"
     ElementTree.ElementTree(now).write(description)

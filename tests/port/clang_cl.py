@@ -41,7 +41,7 @@ def tool(*names):
 
 
 def run(command):
-    """What a program printed, or the end with it."""
+    """The output of a program, or the end with it."""
     done = subprocess.run(command, check=False, capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")

@@ -22,7 +22,7 @@ def skip(reason):
 
 
 def install_requirements(python, lock):
-    """What the lock file names, and no byte else."""
+    """Installs the packages of the lock file, and no byte else."""
     pip = [python, "-m", "pip", "--disable-pip-version-check", "-q", "install", "--no-compile"]
     result = subprocess.run([*pip, "--require-hashes", "--only-binary", ":all:", "-r", lock], text=True,
                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT)

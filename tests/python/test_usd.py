@@ -90,7 +90,8 @@ def test_left_handed_faces_are_turned(wave, stage):
 
 
 def signed_volumes(clip):
-    """Of all meshes together, frame by frame: positive where faces point outwards. Meshes that are absent have none."""
+    """Volumes of all meshes together, frame by frame: positive where faces point outwards. Meshes that are absent have
+    none."""
     volumes = np.zeros(clip.frame_count)
     for mesh in clip.meshes:
         for frame in (frame for frame in range(clip.frame_count) if mesh.shown_in(frame)):

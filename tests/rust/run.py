@@ -180,7 +180,7 @@ def main():
 
 
 def check_everything(checkout, work, sdk_decoder, cargo):
-    """What takes minutes, or tools that few machines have. It fails where one is missing."""
+    """Checks that take minutes, or tools that few machines have. It fails where one is missing."""
     rust = checkout / "bindings/rust"
     with_features = [word for name in ("anicodec", "anicodec-tests") for word in ("-p", name)]
     with_features += ["--features", ",".join(f"{name}/{feature}" for name in with_features[1::2] for feature in ("draco", "encoder"))]

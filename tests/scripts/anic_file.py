@@ -135,7 +135,7 @@ def checked_header(data):
 
 
 def entry(chunk, size=None):
-    """What the table says of a chunk."""
+    """The table's entry of a chunk."""
     flags, numbers = chunk.flags, []
     if chunk.mesh != NO_MESH:
         flags |= OF_MESH

@@ -61,7 +61,7 @@ class File:
         return self.chunks()[chunk].payload[at:at + size]
 
     def put(self, label, new, number=0):
-        """The file with other bytes in a field. `new` may be a function of those that are there."""
+        """The file with other bytes in a field. `new` may be a function of the present ones."""
         chunk, at, size = self.fields[label][number]
         chunks = self.chunks()
         payload = chunks[chunk].payload

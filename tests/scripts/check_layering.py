@@ -142,7 +142,7 @@ EXCEPTIONS = {"sdk/mesh/draco_poses.cpp": ["<draco/"], "sdk/mesh/draco_corners.h
               "tools/peers/draco_frames.cpp": ["<draco/"],
               "tools/peers/frame_deltas.cpp": ["<meshoptimizer.h>", "<zstd.h>"],
               "tools/peers/raw_cache.cpp": ["<lzma.h>", "<zstd.h>"]}
-# What a host would include, and no more.
+# Headers that a host would include, and no more.
 EXAMPLES = ["<anicodec/", "<math.h>", "<stdio.h>", "<stdlib.h>"]
 # Memory in, memory out; and no exceptions leave the decoder.
 # One file of the decoder says that there is no memory; whoever calls the library sees a status.

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
-"""Checks that what the project's Markdown pages point to exists: relative links, source files in backquotes, and the pages
-that the contents of the site name, which its build makes in part.
+"""Checks that the targets named by the project's Markdown pages exist: relative links, source files in backquotes, and the
+pages that the contents of the site name, which its build makes in part.
 
 usage: check_links.py FOLDER      prints a line for each that is missing; exit status 1 if there is one
 """

@@ -135,7 +135,7 @@ class Filter:
         self.matrix = [[self.diagonal if i == j else 0.0 for j in range(n)] for i in range(n)]
 
     def y(self, z):
-        """What is expected."""
+        """The expected number."""
         result = 0.0
         for weight, value in zip(self.u, z):
             result += weight * value

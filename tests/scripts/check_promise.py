@@ -122,7 +122,7 @@ class Combination:
         return clip_output.Clip(self.folder / f"{name}.pc2")
 
     def faults(self):
-        """What the file does not keep."""
+        """Promises that the file breaks."""
         self.run("verify", "-q", self.file)
         said = json.loads(self.run("info", "--json", self.file))
         seen = self.decoded("back")

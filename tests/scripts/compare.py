@@ -32,7 +32,7 @@ def read_pc2(path):
 
 
 def diagonal(p):
-    """Of the box around all positions."""
+    """The diagonal of the box around all positions."""
     return math.dist([min(p[a::3]) for a in range(3)], [max(p[a::3]) for a in range(3)])
 
 

@@ -100,7 +100,7 @@ def clouds(stage, code):
 
 
 def distance_of(theirs, ours):
-    """Of each cloud to the nearest of ours, the largest; infinite where one is lost or was added."""
+    """The largest distance from a cloud to the nearest of ours; infinite where one is lost or was added."""
     if len(theirs) != len(ours):
         return np.inf
     largest, left = 0.0, list(ours)

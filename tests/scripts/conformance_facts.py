@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
-"""What tests/conformance/run.py compares a decoder's output with, made from the output of a decoder."""
+"""The facts that tests/conformance/run.py compares a decoder's output with, made from the output of a decoder."""
 import json
 import math
 import pathlib

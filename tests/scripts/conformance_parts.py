@@ -15,12 +15,12 @@ def needs(parts):
 
 
 def features_of(data):
-    """Those parts that the header names."""
+    """The parts that the header names."""
     bits = struct.unpack_from("<Q", data, 16)[0] if len(data) >= 24 else 0
     return [part for bit, part in FEATURES.items() if bits >> bit & 1]
 
 
 def parts_of(data, *parts):
-    """Those that a good file needs to be shown in full; parts are those of fields."""
+    """The parts that a decoder needs to show a good file in full; `parts`: the parts of its fields."""
     kinds = {chunk.type for chunk in anic_file.read_chunks(data)}
     return features_of(data) + [part for kind, part in PARTS_OF_CHUNKS.items() if kind in kinds] + list(parts)

@@ -67,7 +67,7 @@ class Job:
         return None
 
     def fault_of_set(self):
-        """What the next run finds."""
+        """The fault that the next run finds."""
         if self.after:
             run(*self.after)
             if contents(self.folder) not in self.states:

@@ -21,7 +21,7 @@ class AdaptiveBit:
         self.n = 0
 
     def probability(self):
-        """Of a 1, in 1/65536."""
+        """The probability of a 1, in 1/65536."""
         return min(max(self.fast + self.slow >> 1, 16), 65520)
 
     def update(self, b):

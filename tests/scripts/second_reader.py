@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
-"""Compares what the command bakes of random scenes with what another reader of their format makes of them.
+"""Compares random scenes as the command bakes them with the same scenes as another reader of their format gives them.
 
 usage: second_reader.py [--seed N] [--count N] [--keep FOLDER] [--modules FOLDER] [--package PYTHON] FORMAT... ANICODEC
   FORMAT     gltf   by three.js in node; --modules names the folder of its node_modules
@@ -33,7 +33,7 @@ AFTER = 3e-7  # seconds: a step at the time of a frame shows in it
 
 
 def solid(triangles):
-    """Those that are no point: what is hidden collapses."""
+    """The triangles that are no point: hidden ones collapse."""
     corners = triangles[:, :9].reshape(-1, 3, 3)
     return triangles[np.abs(corners - corners[:, :1]).max(axis=(1, 2)) > 1e-6]
 
@@ -62,7 +62,7 @@ def difference(ours, theirs):
 
 
 def differences(name, times, frames, theirs):
-    """What is said of the first frame of a clip that differs from a second reader's, if one does."""
+    """Describes the first frame of a clip that differs from a second reader's, if one does."""
     for frame, (a, b) in enumerate(zip(frames, theirs)):
         why = difference(a, np.array(list(b), float).reshape(-1, 10))
         if why:
@@ -96,7 +96,7 @@ class Command:
 
     @staticmethod
     def triangles(path):
-        """Those of a frame, which has no file if it shows nothing; polygons as fans."""
+        """The triangles of a frame, which has no file if it shows nothing; polygons as fans."""
         lines = [line.split() for line in path.read_text().splitlines()] if path.exists() else []
         positions = np.array([line[1:4] for line in lines if line[:1] == ["v"]], float).reshape(-1, 3)
         faces = [[int(word.split("/")[0]) - 1 for word in line[1:]] for line in lines if line[:1] == ["f"]]
@@ -356,7 +356,7 @@ class AbcFormat:
         return array
 
     def sample(self, random, kinds, inherits):
-        """Of an Xform: operations, the same in all samples, or a matrix."""
+        """A sample of an Xform: operations, the same in all samples, or a matrix."""
         geometry, imath = self.geometry, self.imath
         sample = geometry.XformSample()
         sample.setInheritsXforms(inherits)
@@ -404,7 +404,7 @@ class AbcFormat:
                     self.array(imath.IntArray, [int(c) for c in corners]), self.array(imath.IntArray, [3] * (len(corners) // 3))))
 
     def triangles(self, parent, world, time):
-        """Of all below an object, whose world matrix is for row vectors."""
+        """The triangles of all objects below an object, whose world matrix is for row vectors."""
         geometry, at = self.geometry, self.abc.ISampleSelector(time, self.abc.ISampleSelector.TimeIndexType.kNearIndex)
         for i in range(parent.getNumChildren()):
             child = parent.getChild(i)
@@ -665,7 +665,7 @@ class ObjFormat:
         return style["end"].join(lines) + style["end"]
 
     def triangles(self, file):
-        """Those of a frame: nine coordinates, and 1 for an order that has a meaning."""
+        """The triangles of a frame: nine coordinates, and 1 for an order that has a meaning."""
         mesh = self.trimesh.load(file, process=False, force="mesh", skip_materials=True)
         return np.hstack([np.array(mesh.triangles).reshape(-1, 9), np.ones((len(mesh.faces), 1))])
 

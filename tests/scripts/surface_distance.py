@@ -46,7 +46,7 @@ class Surface:
         self._triangles = [tuple(tuple(flat[3 * v:3 * v + 3]) for v in triangle) for triangle in corners]
 
     def distance(self, point, enough):
-        """Of a point from the surface; stops at a distance that is enough."""
+        """The distance of a point from the surface; stops at a distance that is enough."""
         least = math.inf
         for triangle in self._triangles:
             least = min(least, to_triangle(point, *triangle))

@@ -235,7 +235,7 @@ def compare(folder, number, frame):
 
 
 def pixels(path):
-    """Of a PNG of 8 bits without interlacing."""
+    """The pixels of a PNG of 8 bits without interlacing."""
     import zlib
     data, at, packed = path.read_bytes(), 8, b""
     while at < len(data):

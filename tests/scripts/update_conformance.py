@@ -94,7 +94,7 @@ def listing(command, path):
 
 
 def parts_of_rule(name, data):
-    """Those that a decoder needs to see what is wrong."""
+    """The parts that a decoder needs to see the fault."""
     rule = max((beginning for beginning in OPTIONAL_RULES if name.startswith(beginning)), key=len, default="")
     return features_of(data) + [part for part in OPTIONAL_RULES.get(rule, "").split(",") if part]
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What stands beside the positions, from file to file by the command.
+// Attributes, from file to file by the command.
 #include "corpus/clips.h"
 #include "tests/tools/clip_testing.h"
 #include "tests/tools/command_testing.h"

@@ -21,7 +21,7 @@
 
 namespace anicodec::tools {
 
-/// What a program did.
+/// The outcome of a program.
 struct Outcome {
   int status = -1;  ///< exit status; 128 + signal when one ended it
   std::string out;

@@ -88,7 +88,7 @@ after(() => {
   return browser?.close();
 });
 
-/** Pixels of a page that are lit, and those of them that are red, as [x, y]. */
+/** Pixels of a page that are lit, and the red ones among them, as [x, y]. */
 async function pixels(page) {
   const png = (await page.screenshot()).toString('base64');
   return page.evaluate(async (data) => {

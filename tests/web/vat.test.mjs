@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What `export-vat` writes, played by the shaders of bindings/shaders in Chromium, against the decoder.
+// Textures of `export-vat`, played by the shaders of bindings/shaders in Chromium, against the decoder.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';

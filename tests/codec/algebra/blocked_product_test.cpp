@@ -12,7 +12,7 @@
 namespace anicodec {
 namespace {
 
-/// What one loop for each entry sums up.
+/// The product by one loop for each entry.
 Eigen::MatrixXd plain_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(a.cols(), b.cols());
   for (Eigen::Index j = 0; j < b.cols(); ++j) {

@@ -47,7 +47,7 @@ TEST(Gram, GivesTheDistancesOfASmallObjectThatTravelsFar) {
     move_frame(clip, f, Matrix3d::Identity(), {1e4 * static_cast<double>(f), 0, 0});
   }
   const FrameGram gram = frame_gram(clip.view());
-  // Of the shapes alone too: no cancellation against the travel.
+  // The products of the shapes are as close: no cancellation against the travel.
   MovingPoints still = clip;
   for (size_t f = 0; f < 12; f++) {
     move_frame(still, f, Matrix3d::Identity(),

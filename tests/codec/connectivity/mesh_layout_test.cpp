@@ -50,7 +50,7 @@ MeshSequence grid(uint32_t n, bool quads, unsigned seed) {
   return mesh_of(static_cast<uint32_t>(id.size()), faces);
 }
 
-/// What a decoder rebuilds from the chunks of a layout.
+/// The topology that a decoder rebuilds from the chunks of a layout.
 Topology decoded(const MeshLayout& layout, bool vertices, bool faces) {
   Topology topology;
   EXPECT_EQ(decode_faces(layout.faces, layout.sizes, &topology), Status::kOk);

@@ -11,7 +11,7 @@
 
 namespace anicodec {
 
-/// What a fit evaluates to for frame f with the original key-frames, by definition: vertices x 3.
+/// Frame f of a fit with the original key-frames, by definition: vertices x 3.
 inline std::vector<float> frame_of_fit(const FrameView& clip, const KeyframeFit& fit,
                                        const Eigen::Vector3d& mean_position, uint32_t f) {
   std::vector<float> frame;

@@ -63,7 +63,7 @@ TEST(PatchFilter, LeavesMotionOfFewComponentsWithoutNoise) {
 
 TEST(PatchFilter, KnowsTheMedianOfNoise) {
   EXPECT_NEAR(marchenko_pastur_median(1e-6), 1, 1e-3);
-  // Of a square matrix, whose hard threshold 4 / sqrt(3 median) is known to be 2.858.
+  // The hard threshold of a square matrix, 4 / sqrt(3 median), is known to be 2.858.
   EXPECT_NEAR(4 / std::sqrt(3 * marchenko_pastur_median(1)), 2.858, 1e-3);
 }
 

@@ -90,8 +90,8 @@ TEST(Sted, NeighbourhoodsReachOneVertexFar) {
   }
   MeshSequence q = p;
   q.positions[3 * 8] = 5;
-  // All edges are 1 long. Of what a vertex sees, only 68 (now 2 long) and 89 (sqrt 2) have an
-  // error.
+  // All edges are 1 long. Among the edges that a vertex sees, only 68 (now 2 long) and 89 (sqrt 2)
+  // have an error.
   auto deviation = [](double edges, std::vector<double> errors) {
     double mean = 0, variance = 0;
     for (double e : errors)

@@ -72,7 +72,7 @@ struct Grid {
     return sum;
   }
 
-  /// What rounding vertex by vertex makes of a target.
+  /// A target rounded vertex by vertex.
   std::vector<int32_t> rounded(const std::vector<float>& target) const {
     std::vector<int32_t> q(kCount);
     std::vector<double> y(kCount);

@@ -70,7 +70,7 @@ TEST(SurfaceRegions, AreNeverSmall) {
 }
 
 TEST(SurfaceRegions, KeepSmallPiecesWhole) {
-  // A sheet_graph, and tenths of it that are far away.
+  // A sheet_graph, and pieces of a tenth of its size far away.
   constexpr uint32_t kPieces = 5, kSize = 20, kSheet = kWidth * kHeight;
   MeshGraph graph;
   std::vector<uint32_t> triangles;

@@ -56,7 +56,7 @@ VertexOrder order_of(const Mesh& mesh, int m = 16, int colours = 1) {
   return o;
 }
 
-/// What every order promises, whatever the graph.
+/// The promises of every order, whatever the graph.
 void expect_valid(const Mesh& mesh, const VertexOrder& o) {
   const size_t n = mesh.vertex_count();
   const auto m = static_cast<size_t>(o.neighbour_count);

@@ -23,7 +23,7 @@ const std::vector<std::string> kCommands = {
     "massage transfer", "massage map", "massage remesh", "dump",       "render",
     "corpus",           "add",         "remove",         "usd-plugin", "export-vat"};
 
-/// What a command prints as its help.
+/// The help that a command prints.
 std::string help_of(const std::string& command) {
   const size_t blank = command.find(' ');
   if (blank == std::string::npos)

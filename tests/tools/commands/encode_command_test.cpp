@@ -189,7 +189,7 @@ TEST_F(EncodeCommand, KeepsEveryKindOfTarget) {
   EXPECT_LE(capped["max_error_percent"], 0.5);
 }
 
-// What viewers see is measured on the decoded file; better qualities are larger.
+// The visible error is measured on the decoded file; better qualities are larger.
 TEST_F(EncodeCommand, KeepsAnErrorOfWhatViewersSee) {
   size_t before = 0;
   for (const auto& [options, bound] :

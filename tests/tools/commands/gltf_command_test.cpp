@@ -238,7 +238,7 @@ INSTANTIATE_TEST_SUITE_P(, RealDataGltf,
 
 class RealDataCesium : public RealDataGltf {
  protected:
-  /// What compare says about two files of the folder.
+  /// The output of compare for two files of the folder.
   nlohmann::json compared(const std::string& a, const std::string& b,
                           std::vector<std::string> options) {
     options.insert(options.begin(),

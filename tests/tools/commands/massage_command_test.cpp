@@ -234,7 +234,7 @@ TEST(MassageCommand, MapsTexturesFromEitherSide) {
   }
   const std::string map = folder.read("map.txt");
   EXPECT_EQ(static_cast<size_t>(std::count(map.begin(), map.end(), '\n')), mapped.vertex_count + 1);
-  // Of A, whose faces they are.
+  // The vertices of A, whose faces they are.
   ASSERT_EQ(anicodec({"massage", "map", folder / "b.obj", folder / "a.obj", "-o",
                       folder / "back.obj", "-q"})
                 .status,

@@ -65,7 +65,7 @@ TEST_F(LiveCapture, LeavesWhatIsThereWhereTheInputEnds) {
   EXPECT_EQ(outcome.status, 2) << outcome;
   EXPECT_THAT(outcome.err, HasSubstr("ends inside a frame"));
   EXPECT_EQ(anicodec({"info", at("live.anic"), "--json"}).json()["clips"][0]["frames"], 17);
-  // What a capture leaves that was killed.
+  // The file of a capture that was killed.
   const Outcome cut = encode("cat frames", "-o cut.anic -q");
   ASSERT_EQ(cut.status, 0);
   EXPECT_EQ(cut.err, "");

@@ -33,7 +33,7 @@ static void tell(const char* message) {
   errno = before;
 }
 
-// One call at a time, so that what is seen after it is its work.
+// One call at a time, so that the state seen after it is its work.
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 #define TOLD(type, message, call)  \
   pthread_mutex_lock(&watching);   \

@@ -28,7 +28,7 @@ JOURNAL = ".anicodec-batch"
 
 
 class Watched:
-    """What happened to the files of a folder: (kind, details), one after the other."""
+    """The history of the files of a folder: (kind, details), one after the other."""
 
     def __init__(self, folder, store):
         self.root, self.store = folder, store
@@ -102,7 +102,7 @@ def watch(command, library, folder, store, fail=0, stdin=None):
 
 
 def torn(durable, latest):
-    """What may be found of a file that had `durable` at its last flush, None if it had none."""
+    """The contents that may be found of a file that had `durable` at its last flush, None if it had none."""
     if durable == latest:
         return [latest]
     kept = durable or b""

@@ -37,7 +37,7 @@ class ShellCompletion : public testing::Test {
 
   std::string script(Shell shell) const { return shell_completion(program_, commands_, shell); }
 
-  /// What a shell prints that runs a script; empty and `found` false without that shell.
+  /// The output of a shell that runs a script; empty and `found` false without that shell.
   std::string run(const std::string& shell, const std::string& text, bool* found) {
     *found = std::system(("command -v " + shell + " > /dev/null").c_str()) == 0;
     const std::string file = folder_.write("script", text);

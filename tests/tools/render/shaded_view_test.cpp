@@ -79,7 +79,7 @@ TEST(ShadedView, ShadesHardEdgesFlat) {
   EXPECT_GT(step_at_edge(hard), 25);
 }
 
-/// Of two squares one behind the other, the nearer is seen.
+/// The nearer of two squares, one behind the other, is seen.
 TEST(ShadedView, HidesWhatIsBehind) {
   MeshSequence sequence;
   sequence.polygons.add(std::vector<uint32_t>{0, 1, 2, 3});

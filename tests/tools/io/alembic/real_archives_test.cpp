@@ -68,7 +68,7 @@ class Hashes {
   std::vector<std::pair<std::string, std::string>> expected_;
 };
 
-/// Where a list has a value for each sample, that of one; otherwise the one of all.
+/// The value of a sample if the list has one for each; otherwise the one of all.
 const Json& at_sample(const Json& value, size_t sample) {
   return value.is_array() ? value[sample] : value;
 }
@@ -168,7 +168,7 @@ void check_samples(const AbcArchive& archive, AbcMesh& mesh, const Json& expecte
   }
 }
 
-/// What a clip of one mesh shows, against the archive evaluated at its times.
+/// Compares a clip of one mesh with the archive evaluated at its times.
 void check_clip(const ByteSource& source, const std::string& path, const Json& expected) {
   const Scene scene = read_alembic_meshes(source, {.mesh = path});
   const Json &times = expected["eval_times"], &visible = expected["eval_visible"];

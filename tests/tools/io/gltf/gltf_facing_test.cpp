@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// The front of faces: the signed volume of a closed surface, which is that of the tetrahedra that its triangles make
-// with the origin, is positive where they point outwards.
+// The front of faces: the signed volume of a closed surface, the sum over the tetrahedra of its
+// triangles and the origin, is positive if they point outwards.
 #include "codec/sequence/scene.h"
 #include "tests/tools/gltf_testing.h"
 #include "tools/io/gltf/gltf.h"

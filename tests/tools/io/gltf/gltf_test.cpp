@@ -427,7 +427,7 @@ TEST(Gltf, ReadsBuffersBesideTheFileAndInIt) {
   EXPECT_THAT(load_sequence(std::vector{path}).positions, ElementsAre(0, 0, 0, 1, 0, 0, 0, 1, 0));
 }
 
-// What is wrong is named by its JSON pointer.
+// Faults are named by their JSON pointer.
 
 TEST(GltfFaults, NameMissingBuffers) {
   GltfScene scene = triangle_scene();

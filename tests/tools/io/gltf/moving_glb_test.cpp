@@ -90,7 +90,7 @@ TEST(MovingGlb, KeepsWhatTheClipDoesNotReplace) {
   EXPECT_EQ(primitive["attributes"].size(), 2U);  // the surface has no normals of its own
   EXPECT_EQ(d["accessors"][primitive["attributes"]["POSITION"].get<size_t>()]["max"],
             json({1, 1, 1}));
-  // Of the animations the camera's is left, and of the samplers and accessors what it needs.
+  // The camera's animation is left, and the samplers and accessors that it needs.
   ASSERT_EQ(d["animations"].size(), 1U);
   EXPECT_EQ(d["animations"][0]["name"], "pan");
   EXPECT_EQ(d["accessors"].size(), 4U);
