@@ -37,7 +37,7 @@ def read_labels(decoder, corners, labels):              # Section 2: the label o
         check(found[-1] <= labels, "INDEX_RANGE", "a label that does not exist")
     return found
 
-class Entries:  # Sections 3 and 4: `of`, the entry of each element, and the `numbers` of those that were read
+class Entries:  # Sections 3 and 4: `of`, the entry of each element, and the `numbers` of entries that were read
     def __init__(self, decoder, faces, corners, attribute):
         self.decoder, self.corners, self.newest, self.older, self.numbers = decoder, corners, {}, [], {}
         self.same, self.new, self.walk, self.residuals = defaultdict(Bit), Bit(), defaultdict(Bit), integers()

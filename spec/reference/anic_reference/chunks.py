@@ -31,7 +31,7 @@ def read_optional(reader, _):                           # Optional fields: value
         values[tag], before = reader.field("block"), tag
     return values
 
-def origin_of(fields):                                  # Of those of CLIP: 1; None where it is malformed
+def origin_of(fields):                                  # Field 1 of CLIP; None where it is malformed
     value = fields.get(1, bytes(24))
     origin = struct.unpack("<3d", value) if len(value) == 24 else (math.nan,)
     return list(origin) if finite(origin) else None
@@ -101,7 +101,7 @@ def read_limi(data, file):
         check(int.from_bytes(limi.optional[1], "little") == file.follows, "MESHES")
     return limi
 
-def check_limits(limi, size):                           # What no sensible file of that size has
+def check_limits(limi, size):                           # Limits that no sensible file of that size has
     decisions, most = 0, 256 * size + 2**24
     for mesh in limi.meshes:
         counts, numbers = [elements(mesh, domain) for domain in range(3)], mesh.attribute_numbers or 0

@@ -45,7 +45,7 @@ def log_class(r, x, n):                                 # `class` of section 4
     return min(x if e < 0 else (e << r) + (x >> e), n - 1)
 
 class Decoder:
-    """What both coders have. They add bit, raw and end; `slot`, which says what symbol is next; and
+    """Shared by both coders. They add bit, raw and end; `slot`, which says what symbol is next; and
     `advance`, which takes it: the one that has so many of 32768 slots from one on."""
     def unsigned(self, bits, negative=lambda: 0):
         """An integer (section 2), the sign of which `negative` reads."""

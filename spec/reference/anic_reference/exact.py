@@ -18,7 +18,7 @@ def number(i):
     check(-0x7F800000 <= i <= 0x7F7FFFFF, "ENTROPY", "no number of binary32")
     return struct.unpack("<f", struct.pack("<I", i if i >= 0 else -1 - i | 1 << 31))[0]
 
-class Axis:  # What is known along one axis: its lattice, filters and models
+class Axis:  # State along one axis: its lattice, filters and models
     def __init__(self, lattice, errs, noise):
         self.lattice, self.errs, self.noise = lattice, errs, noise
         self.bits, self.errors, self.erred = integers(), {}, 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: CC0-1.0
-"""What tests/conformance/README.md wants to see of a file: OUT.pc2, OUT.obj, OUT.json."""
+"""The output for tests/conformance/README.md: OUT.pc2, OUT.obj, OUT.json."""
 import json
 import struct
 import numpy as np

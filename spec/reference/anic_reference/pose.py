@@ -82,7 +82,7 @@ class Partners:  # Section 8: vertices that are like others of the same pose
             self.to[v], self.strand[v], self.back[found[0]] = *found, v
 
 class PoseDecoder:
-    """What the poses of a stream share, and the pose at hand. `at` is what is known of the vertex at hand."""
+    """State shared by the poses of a stream, and the pose at hand. `at` is what is known of the vertex at hand."""
     def __init__(self, decoder, corners):
         self.decoder, self.corners = decoder, corners
         self.rows, self.bits = defaultdict(Row), defaultdict(Bit)
