@@ -67,7 +67,7 @@ def copy_pages(source):
 
 
 def drop_empty_patterns(source):
-    """Patterns in the contents take pages that come later; Sphinx warns of those that find nothing new."""
+    """Patterns in the contents take pages that come later; Sphinx warns of a pattern that finds nothing new."""
     index, listed, lines = source / "index.md", set(), []
     for line in index.read_text(encoding="utf-8").splitlines():
         if line.startswith("```"):
@@ -101,7 +101,7 @@ def grouped(text, stem):
 
 
 def opening_comment(text):
-    """What the top of a header says, as Markdown: headings, lists, and indented blocks as code."""
+    """The comment at the top of a header, as Markdown: headings, lists, and indented blocks as code."""
     comment = text[text.index("*"):text.index("*/")]
     lines = [line.removeprefix(" *").removeprefix(" ") for line in comment.splitlines()[3:]]
     blocks = []

@@ -27,7 +27,7 @@ class Page:
         self.lines = []
 
     def run(self, *arguments):
-        """What a command prints."""
+        """The output of a command."""
         result = subprocess.run([self.command, *map(str, arguments)], cwd=self.work, text=True, capture_output=True,
                                 check=False)
         if result.returncode != 0:
