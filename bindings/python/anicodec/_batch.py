@@ -31,14 +31,15 @@ class ClipFailed(AnicodecError, RuntimeError):
 
 @dataclass(frozen=True)
 class _Refused:
-    """What a task returns of a clip whose input or options are at fault: dask logs a traceback of what it raises."""
+    """The result of a task for a clip whose input or options are at fault: dask logs a traceback of whatever a task
+    raises."""
 
     line: str
 
 
 @dataclass(frozen=True)
 class Result:
-    """What became of a clip."""
+    """The outcome for a clip."""
 
     name: str
     path: str

@@ -23,7 +23,7 @@ _OTHERS = (".pc2", ".mdd", ".abc", ".gltf", ".glb", ".fbx", ".md3", ".md2", ".da
 
 
 def _arguments(arguments: List[str]) -> Tuple[argparse.Namespace, List[str]]:
-    """What a batch needs, and the options of each clip."""
+    """The options of the batch, and the options of each clip."""
     parser = argparse.ArgumentParser(prog="anicodec encode", add_help=False, allow_abbrev=False)
     parser.add_argument("--batch")
     parser.add_argument("-o", "--output")

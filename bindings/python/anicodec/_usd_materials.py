@@ -13,7 +13,7 @@ from .material import Material
 from ._usd_stage import identifier
 
 _SURFACE, _TEXTURE, _READER = "UsdPreviewSurface", "UsdUVTexture", "UsdPrimvarReader_float2"
-# Inputs that a look has, and what those that it lacks are where they mean nothing.
+# Inputs that a look has, and other inputs with the values at which they mean nothing.
 _KEPT = ("diffuseColor", "metallic", "roughness", "emissiveColor", "opacity", "opacityThreshold", "normal", "occlusion")
 _PLAIN = {"useSpecularWorkflow": 0, "specularColor": Gf.Vec3f(0), "clearcoat": 0.0, "clearcoatRoughness": 0.01, "ior": 1.5,
           "displacement": 0.0, "opacityMode": "transparent"}

@@ -15,7 +15,7 @@ from pxr import Gf, Sdf, Tf, Usd, UsdSkel, UsdUtils
 from .errors import InputError
 
 MATERIALS = "materialBind"  #: family of the subsets that have a material
-PARTS = "part"  #: family of those that are parts of a mesh
+PARTS = "part"  #: family of the subsets that are parts of a mesh
 
 
 def opened(stage: Any) -> Usd.Stage:

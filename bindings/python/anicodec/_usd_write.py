@@ -22,8 +22,8 @@ def decode(clip: Any, target: Union[str, os.PathLike, Usd.Stage], *, over: bool 
     A mesh for each of the clip, in world space, with points at the time code of each frame; one that rests has them once.
     Meshes of a stage come back at their paths, time codes and units, others below a prim that is named for the clip and is at its
     origin. Several clips are variants "clip". over: prims are "over", and meshes leave the transforms above them, so that the
-    result fits as a layer over the stage that was encoded. normals=False leaves out those that say which edges are smooth. frames: those of the file
-    to write; they keep their time codes.
+    result fits as a layer over the stage that was encoded. normals=False leaves out normals that say which edges are smooth. frames: numbers of
+    the frames to write; they keep their time codes.
     """
     source = clip if isinstance(clip, Clip) else open_clip(clip)
     stage = target if isinstance(target, Usd.Stage) else Usd.Stage.CreateNew(os.fspath(target))
@@ -137,7 +137,7 @@ def _whole(code: float) -> float:
 
 
 def _write_surface(prim: UsdGeom.Mesh, mesh: Any, looks: Optional[LookWriter]) -> None:
-    """What does not move."""
+    """Writes all that does not move."""
     offsets, corners = mesh.polygons
     prim.CreateFaceVertexCountsAttr(Vt.IntArray.FromNumpy(np.diff(offsets).astype(np.int32)))
     prim.CreateFaceVertexIndicesAttr(Vt.IntArray.FromNumpy(corners.astype(np.int32)))
@@ -151,7 +151,7 @@ def _write_surface(prim: UsdGeom.Mesh, mesh: Any, looks: Optional[LookWriter]) -
 
 
 def _write_motion(prim: UsdGeom.Mesh, mesh: Any, clip: Clip, chosen: int, frames: List[int], codes: List[float], normals: bool) -> None:
-    """What moves, in frames of one of the clips."""
+    """Writes all that moves, in frames of one of the clips."""
     shown = [mesh.shown_in(frame) for frame in frames]
     there = [frame for frame, is_there in zip(frames, shown) if is_there]
     for number, frame in enumerate(frames):

@@ -18,7 +18,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from .errors import InputError
 
 _KINDS = {"vtp": "PolyData", "vtu": "UnstructuredGrid", "vts": "StructuredGrid", "vtr": "RectilinearGrid", "vti": "ImageData"}
-#: The room of VTK and the reader in it, of files of one step and of those that may have several.
+#: The room of VTK and the reader in it, for files of one step and for files that may have several.
 _OF_STEP = {
     ".vtk": ("vtkIOLegacy", "vtkGenericDataObjectReader"),
     ".vtm": ("vtkIOXML", "vtkXMLMultiBlockDataReader"),

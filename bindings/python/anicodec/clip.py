@@ -40,7 +40,7 @@ def _three(values: Any, number: Any, what: str) -> list:
 
 
 class Attribute(NamedTuple):
-    """What stands beside the positions of a mesh, as in frame 0."""
+    """An attribute of a mesh beside its positions, as in frame 0."""
 
     name: str
     kind: str  #: uv, normal, tangent, colour, custom, material or part
@@ -160,7 +160,7 @@ class Mesh:
 
     @property
     def attributes(self) -> Tuple[Attribute, ...]:
-        """What the file holds beside positions and polygons."""
+        """All attributes that the file holds beside positions and polygons."""
         if self._attributes is None:
             found = []
             for i in range(self._mesh["attribute_count"]):
@@ -344,7 +344,7 @@ class Clip:
 
     @property
     def metadata(self) -> Dict[str, Any]:
-        """What the file says of itself: see encode(); empty if nothing."""
+        """The metadata of the file: see encode(); empty if it has none."""
         return read_metadata(self.data)
 
     def field(self, name: str) -> Dict[str, Any]:
@@ -398,7 +398,7 @@ class Clip:
 
     def root_step(self, begin: float, end: float, clip: Union[None, int, str] = None, sampling: str = "linear",
                   wrap: str = "loop") -> RootMotion:
-        """What moves a character on from one time to another, in the axes that it has at `begin`: its matrix times this one
+        """The step of a character from one time to another, in the axes that it has at `begin`: its matrix times this one
         is the next. A loop goes on at its end from where it is."""
         turn, move, pivot, matrix = self._asset.root_step(
             self.clip_number(clip), float(begin), float(end), chosen(_SAMPLING, sampling, "sampling"),

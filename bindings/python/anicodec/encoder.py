@@ -43,7 +43,7 @@ class Encoded(bytes):
     """The bytes of a file, with what was measured of it: `measured["max_error"]`, "rmse", "kg", "diagonal"..."""
 
     measured: Dict[str, Any]
-    notes: Sequence[str] = ()  #: what a source has and the file does not keep, of those that importers read
+    notes: Sequence[str] = ()  #: data of the source that importers read and the file does not keep
 
 
 @dataclass(frozen=True)
@@ -146,7 +146,7 @@ def _goal(options: Dict[str, Any]) -> Dict[str, Any]:
 
 
 def _choices(options: Dict[str, Any]) -> Dict[str, Any]:
-    """Options as the extension module takes them. What it does not know is an error."""
+    """Options as the extension module takes them. An unknown option is an error."""
     choices = _goal(options)
     for name, table in _CHOICES.items():
         value = options.pop(name, None)
@@ -171,7 +171,7 @@ def _choices(options: Dict[str, Any]) -> Dict[str, Any]:
 
 
 def option_names() -> List[str]:
-    """What encode() and encode_meshes() take, by name."""
+    """The options of encode() and encode_meshes(), by name."""
     return [*_GOALS, *_CHOICES, *_NUMBERS, *_SWITCHES,
             *(name for function in (encode, encode_meshes) for name in inspect.signature(function).parameters)]
 
@@ -450,7 +450,7 @@ def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = 
         smallest (whatever opening takes), uv_bits, colour_bits, attribute_error, store_normals (degrees), no_attributes: as
         of the command.
     threads: 0 for all. max_bytes: of memory, else LimitError.
-    progress: a function of the stage and the share of it that is done; False from it raises Cancelled, and what it
+    progress: a function of the stage and its share done; False from it raises Cancelled, and what it
         raises ends the encoding too.
 
     Raises InputError (a ValueError), LimitError, Cancelled, TypeError. The GIL is released.

@@ -4,7 +4,7 @@
 
 
 class AnicodecError(Exception):
-    """Of all of them."""
+    """The base of all of them."""
 
 
 class InputError(AnicodecError, ValueError):

@@ -39,7 +39,7 @@ def _numbers(data: GeomVertexData, array: int) -> np.ndarray:
 
 
 class _Surface:
-    """What all instances share of a mesh: the plan of its vertices, triangles, texture coordinates."""
+    """The part of a mesh that all instances share: the plan of its vertices, triangles, texture coordinates."""
 
     def __init__(self, mesh: Mesh, crease: float):
         first = next((f for f in range(len(mesh)) if mesh.shown_in(f)), 0)

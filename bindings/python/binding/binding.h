@@ -29,7 +29,7 @@ namespace anicodec::python {
 
 namespace nb = nanobind;
 
-/// Arrays that Python gives: contiguous, of exactly this type. What is not, anicodec/ has copied.
+/// Arrays that Python gives: contiguous, of exactly this type. anicodec/ has copied any others.
 template <class T, class... Shape>
 using Array = nb::ndarray<const T, nb::c_contig, nb::device::cpu, Shape...>;
 template <class T>

@@ -34,7 +34,7 @@ class RenderPlan {
 /// Shows moments of a clip. One thread at a time.
 class Instance {
  public:
-  /// `clips`: numbers in the file of those that were opened.
+  /// `clips`: numbers in the file of the opened clips.
   Instance(const anic_asset* asset, std::vector<uint32_t> clips);
 
   void set_clip(uint32_t clip);
