@@ -122,7 +122,7 @@ namespace Anicodec
         public int MeshCount { get { return (int)info.mesh_count; } }
         public int SegmentCount { get { return (int)info.segment_count; } }
 
-        /// <summary>Of all clips.</summary>
+        /// <summary>Frames of all clips.</summary>
         public int FrameCount { get { return (int)info.frame_count; } }
 
         public int ClipCount { get { return (int)Native.anic_get_clip_count(handle); } }
@@ -146,7 +146,7 @@ namespace Anicodec
             }
         }
 
-        /// <summary>Of the box around all frames of the source.</summary>
+        /// <summary>The diagonal of the box around all frames of the source.</summary>
         public double Diagonal { get { return info.diagonal; } }
 
         /// <summary>Largest distance of a vertex from its place in the source, in units of the clip.</summary>
@@ -206,7 +206,7 @@ namespace Anicodec
         }
 
         /// <summary>
-        /// What moves a character on from one time of a clip to another, through any number of turns of a loop: Turn, and Move in the
+        /// The step of a character from one time of a clip to another, through any number of turns of a loop: Turn, and Move in the
         /// axes that it has at `from`. For a cross-fade, add up those of both clips by their weights.
         /// </summary>
         public RootMotion GetRootStep(int clip, double from, double to, Sampling sampling = Sampling.Linear, Wrap wrap = Wrap.Loop)

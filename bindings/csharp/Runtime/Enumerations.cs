@@ -24,7 +24,7 @@ namespace Anicodec
     /// <summary>The axis that points up.</summary>
     public enum UpAxis { Unknown = 0, Y = 1, Z = 2 }
 
-    /// <summary>What an encoder keeps: the default is a largest error of 0.05 %.</summary>
+    /// <summary>The target of an encoder: the default is a largest error of 0.05 %.</summary>
     public enum Goal { Default = 0, MaxError = 1, Kg = 2, Rmse = 3, Size = 4, Bpfv = 5, Displacement = 6, Sted = 7 }
 
     /// <summary>How much of the source's order the file keeps.</summary>

@@ -44,7 +44,7 @@ namespace Anicodec
         public UpAxis Up;
         public double StartTime, MetresPerUnit;
 
-        /// <summary>What is kept; by default a largest error of 0.05 %.</summary>
+        /// <summary>The target; by default a largest error of 0.05 %.</summary>
         public Goal Goal;
         public double GoalValue;
 
@@ -95,7 +95,7 @@ namespace Anicodec
         /// <summary>Frames of which no file is made yet.</summary>
         public long WaitingFrames;
 
-        /// <summary>Of these, frames of full files that are not begun: 0 while it keeps up, else how far it is behind.</summary>
+        /// <summary>The waiting frames of full files that are not begun: 0 while it keeps up, else how far it is behind.</summary>
         public long LateFrames;
 
         /// <summary>Files made, and not taken.</summary>

@@ -32,7 +32,7 @@ namespace Anicodec
     public struct SurfaceFrame
     {
         public Point Position;
-        /// <summary>Of the triangle, on its front.</summary>
+        /// <summary>The normal of the triangle, on its front.</summary>
         public Point Normal;
         /// <summary>From the triangle's first vertex to the second one.</summary>
         public Point Tangent;
@@ -174,7 +174,7 @@ namespace Anicodec
         public ReadOnlySpan<int> Wide;
         public ReadOnlySpan<short> Narrow;
 
-        /// <summary>Of the surface, each with weights and a pose map of its own.</summary>
+        /// <summary>Regions of the surface, each with weights and a pose map of its own.</summary>
         public int Regions;
 
         /// <summary>Region of each vertex; empty: all are of region 0.</summary>

@@ -32,7 +32,7 @@ namespace Anicodec.Unity
         /// <summary>AnicPlay.compute, to play on the graphics card; none: the CPU does.</summary>
         public ComputeShader shader;
 
-        /// <summary>What the motion of the whole moves on, of a clip with inPlace; none: it stays where it is.</summary>
+        /// <summary>The transform that root motion moves, for a clip with inPlace; none: it stays where it is.</summary>
         public Transform root;
 
         private Context context;
