@@ -99,8 +99,8 @@ impl Clip {
         self.0 .0.as_ptr()
     }
 
-    /// Makes another clip of the same memory, with clips or a quality of its own: some of those that are open here, and no
-    /// more of the components. Nothing is decoded.
+    /// Makes another clip of the same memory, with clips or a quality of its own: some of the clips open here, and no more
+    /// of the components. Nothing is decoded.
     pub fn share(&self, options: &OpenOptions) -> Result<Self> {
         let options = RawOptions::new(options)?;
         let mut asset = ptr::null_mut();

@@ -326,7 +326,7 @@ impl Shown<'_> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RootMotion {
-    /// The clip holds moves, or one of those that are blended does.
+    /// The clip holds moves, or a blended clip does.
     pub moves: bool,
     /// The same of turns.
     pub turns: bool,
@@ -336,8 +336,8 @@ pub struct RootMotion {
     pub movement: [f64; 3],
     /// A point of the axis of the turn.
     pub pivot: [f64; 3],
-    /// The same as one map, 3 x 4, row-major: it takes positions without the motion
-    /// ([`OpenOptions::in_place`](crate::OpenOptions::in_place)) to those with it.
+    /// The same as one map, 3 x 4, row-major: from positions without the motion
+    /// ([`OpenOptions::in_place`](crate::OpenOptions::in_place)) to positions with it.
     pub matrix: [f32; 12],
 }
 

@@ -542,8 +542,8 @@ impl<'a> Encoder<'a> {
         self.encode_with(options, |_, _| ControlFlow::Continue(()))
     }
 
-    /// The same, and `report` gets the name of each stage and the share of it that is done; it breaks to stop the encoding,
-    /// which fails with [`Status::Cancelled`] then. A panic of `report` ends the process.
+    /// The same, and `report` gets the name of each stage and its share done; it breaks to stop the encoding, which fails
+    /// with [`Status::Cancelled`] then. A panic of `report` ends the process.
     pub fn encode_with(
         &mut self,
         options: &EncodeOptions<'_>,

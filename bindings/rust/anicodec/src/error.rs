@@ -132,7 +132,7 @@ impl Chunk {
         &self.0
     }
 
-    /// What C gives: empty outside any chunk.
+    /// From the chunk that C gives: empty outside any chunk.
     fn from_raw(raw: [core::ffi::c_char; 8]) -> Option<Self> {
         let mut bytes = [0; 4];
         for (to, from) in bytes.iter_mut().zip(raw) {

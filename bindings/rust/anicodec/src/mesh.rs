@@ -319,7 +319,7 @@ pub struct Material<'a> {
     pub emissive: [f32; 3],
     /// How light goes through.
     pub alpha: AlphaMode,
-    /// Of [`AlphaMode::Mask`].
+    /// The cutoff of [`AlphaMode::Mask`].
     pub alpha_cutoff: f32,
     /// The back is drawn, too.
     pub double_sided: bool,

@@ -110,7 +110,7 @@ struct Crowd {
     mesh: u32,
     faces: Handle<Mesh>,
     states: Handle<ShaderBuffer>,
-    /// By segment, of those that move the mesh.
+    /// By number of the segment; none for segments that do not move the mesh.
     segments: Vec<Option<Segment>>,
     /// Texels of an instance.
     stride: usize,
