@@ -19,7 +19,7 @@ export interface ShownField {
   high: number;
 }
 
-/** Plays clips by animation groups; what moves is up to those that extend it. */
+/** Plays clips by animation groups; a class that extends it decides how the mesh moves. */
 export declare class AnicPlayer extends TransformNode {
   readonly clip: Clip;
   /** Seconds from the first frame of the clip that is shown. */

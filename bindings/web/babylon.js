@@ -21,7 +21,7 @@ export { AnicInstances } from './babylon_instances.js';
 
 const FRAMES_PER_SECOND = 60;  // of the keys of animation groups
 
-/** Plays the clips of a file by animation groups, or shows one at `time`. What moves is up to show(). */
+/** Plays the clips of a file by animation groups, or shows one at `time`. A class that extends it moves the mesh in show(). */
 export class AnicPlayer extends TransformNode {
   #shown = '';
   #time = 0;
@@ -211,7 +211,7 @@ export async function loadAnic(source, scene, options) {
   return new AnicMesh(await open(source, options), scene);
 }
 
-/** What Babylon.js calls an attribute of a glTF; undefined if it has none for it. */
+/** Babylon.js's name of an attribute of a glTF; undefined if it has none for it. */
 function kindOf(attribute) {
   const [kind, number] = attribute.split('_');
   if (kind === 'COLOR')

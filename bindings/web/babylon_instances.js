@@ -4,7 +4,7 @@
 // Many instances of a clip's mesh at different times, played by the graphics card of a WebGL 2 engine of Babylon.js.
 //
 // Two passes make positions and normals of all instances, as instance_textures.js says; standard and PBR materials then
-// fetch both. What the first pass does not do, the CPU does for the instances concerned.
+// fetch both. The CPU does the rest for the instances concerned.
 import { VertexBuffer } from '@babylonjs/core/Buffers/buffer.js';
 import { PickingInfo } from '@babylonjs/core/Collisions/pickingInfo.js';
 import { Ray } from '@babylonjs/core/Culling/ray.js';

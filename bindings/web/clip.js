@@ -99,7 +99,7 @@ export class Clip {
     return this.info.frames;
   }
 
-  /** Of the first clip that is open. */
+  /** The duration of the first clip that is open. */
   get duration() {
     return this.find().duration;
   }
@@ -124,7 +124,7 @@ export class Clip {
     return this.#motion('root_motion', [time], options);
   }
 
-  /** What moves a character on from one time to another, through any number of turns of a loop. */
+  /** The step of a character from one time to another, through any number of turns of a loop. */
   rootStep(from, to, options) {
     return this.#motion('root_step', [from, to], options);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 
-/** What went wrong. `status` is a name of anicodec.h, such as ANIC_E_CHUNK_CHECKSUM. */
+/** An error of the decoder. `status` is a name of anicodec.h, such as ANIC_E_CHUNK_CHECKSUM. */
 export declare class AnicError extends Error {
   readonly status: string;
   /** Type of the chunk of the file, or empty. */
@@ -37,7 +37,7 @@ export interface OpenOptions {
   worker?: boolean;
   signal?: AbortSignal;
   onProgress?(progress: Progress): void;
-  /** The clip has become exact: draw it again. Of progressive clips. */
+  /** The clip has become exact: draw it again. For progressive clips. */
   onRefine?(clip: Clip): void;
 }
 
@@ -101,7 +101,7 @@ export interface Box {
 /** Name, clock and errors are those of the first clip of the file: Clip.clips has those of each. */
 export interface ClipInfo {
   readonly name: string;
-  /** Of all clips. */
+  /** Frames of all clips. */
   readonly frames: number;
   /** Frames per second. */
   readonly rate: number;
@@ -126,7 +126,7 @@ export interface ClipInfo {
    * from zero for float32.
    */
   readonly origin: readonly [number, number, number];
-  /** Of the box around all frames of the source. */
+  /** The diagonal of the box around all frames of the source. */
   readonly diagonal: number;
   /** Largest distance of a vertex from its place in the source. */
   readonly maxError: number;
@@ -151,7 +151,7 @@ export interface AttributeInfo {
   readonly moves: boolean;
   /** Names, of materials and parts. */
   readonly labels: string[];
-  /** Of materials: the look that each label names, where the file has it. */
+  /** For materials: the look that each label names, where the file has it. */
   readonly looks: (Look | undefined)[];
 }
 
@@ -190,7 +190,7 @@ export interface Part {
   /** 3 x 4, row by row. */
   poseMap: Float64Array;
   motion: Float64Array;
-  /** Of the pose maps of all regions, twelve float32 each; 0: the basis has no pose. */
+  /** Place of the pose maps of all regions, twelve float32 each; 0: the basis has no pose. */
   poseMapsAt: number;
 }
 
@@ -214,7 +214,7 @@ export interface Basis {
   wide: Int32Array | null;
   narrow: Int16Array | null;
   vertexShape: Uint32Array | null;
-  /** Of the surface, each with weights and a pose map of its own. */
+  /** Regions of the surface, each with weights and a pose map of its own. */
   regions: number;
   /** Region of each vertex; null: all are of region 0. */
   vertexRegion: Uint8Array | null;
@@ -302,7 +302,7 @@ export declare class ClipMesh {
 /** An opened file. Its memory goes with close(), or when nothing refers to it any more. */
 export declare class Clip {
   readonly info: ClipInfo;
-  /** What the file holds: one clip, or several of the same meshes. */
+  /** The clips of the file: one, or several of the same meshes. */
   readonly clips: readonly NamedClip[];
   /** One of them, by its name or number. Throws if there is none, or it was not opened. */
   find(clip?: string | number): NamedClip;
@@ -320,13 +320,13 @@ export declare class Clip {
   frameTime(frame: number): number;
   /** The motion of the whole at a time, part of the positions or not (OpenOptions.inPlace); none where it is not apart. */
   rootMotion(time: number, options?: { clip?: string | number; sampling?: 'step' | 'linear' | 'cubic'; wrap?: 'clamp' | 'loop' | 'ping-pong' }): RootMotion;
-  /** What moves a character on from one time to another, through any number of turns of a loop: a turn, and a move in the axes
+  /** The step of a character from one time to another, through any number of turns of a loop: a turn, and a move in the axes
    * that it has at `from`; no pivot. */
   rootStep(from: number, to: number, options?: { clip?: string | number; sampling?: 'step' | 'linear' | 'cubic'; wrap?: 'clamp' | 'loop' | 'ping-pong' }): RootMotion;
   verify(): void;
   basis(segment: number): Basis;
   close(): void;
-  // Of the first mesh:
+  // For the first mesh:
   readonly indices: Uint32Array;
   readonly groups: Group[];
   readonly vertexCount: number;

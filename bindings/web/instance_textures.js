@@ -150,7 +150,7 @@ function placeWeights({ components, wideComponents, weightChannels }, weights, d
     data.fill(0, to + 4 * (4 * four(wideComponents) + k), to + 4 * (4 * four(wideComponents) + k) + 4);
 }
 
-/** What the instances of a mesh show at their times, as texels that the first pass reads: a row for each instance. */
+/** The states of the instances of a mesh at their times, as texels that the first pass reads: a row for each instance. */
 export class InstanceStates {
   #mesh;
   #count;
@@ -206,7 +206,7 @@ export class InstanceStates {
     return true;
   }
 
-  /** What an instance shows; no parts when the mesh is not there. */
+  /** The parts of an instance; none when the mesh is not there. */
   #parts(time, options) {
     try {
       return this.#mesh.parts(time, options);

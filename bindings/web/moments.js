@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What the animation systems of engines leave behind, who mix numbers: of each clip of a file its weight, and its time by the weight.
+// Moments out of the animation systems of engines, which mix numbers: for each clip of a file its weight, and its time by the weight.
 
 /** Moments of the clips that play, the largest weight first; where none does, that of `set`. */
 export function momentsOf(weights, times, set) {
@@ -17,8 +17,8 @@ export function sampleOf([{ clip, time, weight }, ...others], { sampling, wrap }
 }
 
 /**
- * What the motion of the whole moves a character on by between moments that were shown and those that are: a turn, and a move.
- * Clips that came in since then have not moved. A time before that of a loop is one of its next turn.
+ * The step of a character between the moments shown before and the moments shown now: a turn, and a move. Clips that came in
+ * since then have not moved. A time before that of a loop is one of its next turn.
  */
 export function rootStepOf(file, before, now, { sampling, wrap }) {
   const total = now.reduce((sum, { weight }) => sum + weight, 0), step = { turn: 0, move: [0, 0, 0] };

@@ -15,7 +15,7 @@ export const STATUS = {
   60: 'ANIC_E_LIMIT', 70: 'ANIC_E_MEMORY', 71: 'ANIC_E_READ', 72: 'ANIC_E_CANCELLED', 90: 'ANIC_E_INTERNAL',
 };
 
-/** What went wrong, with the name of the status, and in a file the chunk and the byte offset. */
+/** An error, with the name of the status, and in a file the chunk and the byte offset. */
 export class AnicError extends Error {
   constructor(status, text, { chunk = '', offset = 0 } = {}) {
     super(text);

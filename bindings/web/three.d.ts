@@ -33,7 +33,7 @@ export interface ShownField {
   high: number;
 }
 
-/** Plays clips by actions of a mixer; what moves is up to those that extend it. */
+/** Plays clips by actions of a mixer; a class that extends it decides how the mesh moves. */
 export declare class AnicPlayer extends Group {
   readonly clip: Clip;
   /** Seconds from the first frame of the clip that is shown. */
@@ -50,7 +50,7 @@ export declare class AnicPlayer extends Group {
   root: Object3D | undefined;
   /** Shows the time at once. */
   refresh(force?: boolean): void;
-  /** Plays a clip by a mixer of its own, which update() moves on. What played before fades out within `fade` seconds. */
+  /** Plays a clip by a mixer of its own, which update() moves on. The clip played before fades out within `fade` seconds. */
   play(clip?: string | number, options?: PlayOptions): AnimationAction;
   play(options: PlayOptions): AnimationAction;
   update(seconds: number): void;

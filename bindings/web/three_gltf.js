@@ -8,7 +8,7 @@ import { GltfSurface } from './gltf_surface.js';
 import { open } from './index.js';
 import { AnicPlayer } from './three_player.js';
 
-/** What GLTFLoader calls an attribute. */
+/** GLTFLoader's name of an attribute. */
 function nameOf(attribute) {
   const [kind, number] = attribute.split('_');
   if (kind === 'COLOR' && number === '0')

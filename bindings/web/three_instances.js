@@ -5,8 +5,8 @@
 //
 // Two passes fill textures for all instances: positions, as combinations of the resident basis, and normals, as sums over
 // the corners that the CPU sums too. Materials of three.js then fetch both by the number of the vertex, whatever they do
-// with them: light, shadows, fog. What the first pass does not do, such as corrections of single vertices, frames between
-// two segments, and geometry interpolation, the CPU does for the instances concerned.
+// with them: light, shadows, fog. The CPU does the rest, such as corrections of single vertices, frames between two
+// segments, and geometry interpolation, for the instances concerned.
 import {
   BufferAttribute, BufferGeometry, DataArrayTexture, DataTexture, FloatType, GLSL3,
   InstancedMesh, IntType, Matrix4, Mesh, MeshDepthMaterial, MeshDistanceMaterial, MeshStandardMaterial, NearestFilter,

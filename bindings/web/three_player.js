@@ -7,7 +7,7 @@ import { momentsOf, rootStepOf, sampleOf } from './moments.js';
 
 const users = new WeakMap();  // of clips: how many players show each
 
-/** Plays the clips of a file by actions of a mixer, or shows one at `time`. What it looks like is up to show(). */
+/** Plays the clips of a file by actions of a mixer, or shows one at `time`. A class that extends it draws in show(). */
 export class AnicPlayer extends Group {
   #shown = '';
   #time = 0;

@@ -79,7 +79,7 @@ export class AnicInstances extends Mesh {
     return matrix.set(...this.#state.attribute.array.subarray(this.#at(instance, MATRIX), this.#at(instance, MATRIX) + 12), 0, 0, 0, 1);
   }
 
-  /** What a vertex of an instance is: position, and a normal by the way. */
+  /** A vertex of an instance: position, and a normal by the way. */
   #shown() {
     const { elements, corners } = this.#plan, state = this.#state, stride = this.#stride, vertices = this.#mesh.sourceVertexCount;
     const positions = storage(this.#positions, 'vec4', this.#positions.count).toReadOnly();

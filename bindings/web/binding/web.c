@@ -103,7 +103,7 @@ EXPORT(status_text) const char* web_status_text(int32_t status) {
   return anic_get_status_text(status);
 }
 
-/* What was wrong with the file: text; numbers: offset. */
+/* The fault of the file: text; numbers: offset. */
 EXPORT(failure_detail) const char* web_failure_detail(void) {
   numbers[0] = (double)failure.offset;
   return failure.detail != NULL ? failure.detail : "";
