@@ -19,7 +19,7 @@ import zipfile
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "cmake"))
 from fetch_source import python_with_pip  # noqa: E402  pip builds packages with a Python that has none
 
-# A release, and that whose headers it takes.
+# A release, and the release whose headers it takes.
 SOURCES = {"26.8": "26.8", "26.11": "26.8"}
 DURATION_SINCE = (26, 11)
 

@@ -136,7 +136,7 @@ struct SegmentContext {
   const MeshGraph* graph = nullptr;  ///< edges of the topology's triangles; null: made when needed
   const CornerTable* corners = nullptr;  ///< of the topology; null: made when needed
   SharedOrder* order = nullptr;  ///< of the segments with this pose; null: the segment has its own
-  /// What an encoder knows that weights and layers decode to; null: they are decoded.
+  /// The decoded weights and layers, if an encoder knows them; null: they are decoded.
   const DecodedBasis* decoded = nullptr;
   Vector<ByteView> layers;  ///< chunks BASI in file order
   ByteView corrections;     ///< chunk CORR, empty when there is none

@@ -94,7 +94,7 @@ class _Motion(NamedTuple):
     scene_frames: list
 
     def positions(self):
-        """Of each frame; where the mesh is absent, as last before, or else first after."""
+        """The positions of each frame; where the mesh is absent, as last before, or else first after."""
         last = self.source[self.clip.first_frame + self.there.index(True)]
         for number, there in enumerate(self.there):
             last = self.source[self.clip.first_frame + number] if there else last

@@ -123,7 +123,7 @@ def turned_order(starts):
 
 
 def attributes_of(mesh, turned=False):
-    """What encoding takes beside positions: arguments of SourceMesh. turned: of polygons that are turned over."""
+    """Data to encode beside positions: arguments of SourceMesh. turned: for polygons that are turned over."""
     order = turned_order(polygon_starts(mesh)) if turned else slice(None)
     result = {"uv": {}, "colours": {}}
     for layer in mesh.uv_layers:

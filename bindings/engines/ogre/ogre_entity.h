@@ -22,7 +22,7 @@ class Entity : public Ogre::MovableObject {
  public:
   enum class Path : uint8_t {
     kCpu,   ///< positions and smooth normals in vertex buffers, for any material
-    kCard,  ///< a vertex shader combines the basis; facets. Where it cannot, the CPU does
+    kCard,  ///< a vertex shader combines the basis; facets. If it cannot, the CPU does
   };
 
   Entity(const Ogre::String& name, std::shared_ptr<Clip> clip, Path path);
@@ -55,8 +55,8 @@ class Entity : public Ogre::MovableObject {
   /// Share of the components to play, in (0, 1].
   void set_quality(double quality);
 
-  /// For all groups of triangles; without it, those that the file names, where there are such. Of a material, the card's
-  /// path takes the diffuse colour of its first pass.
+  /// For all groups of triangles; without it, those that the file names, where there are such. The
+  /// card's path takes the diffuse colour of the material's first pass.
   void set_material(const Ogre::MaterialPtr& material);
 
   /// On the CPU, positions of the frame drawn before go to texture coordinates 7, for motion blur.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// Stands in for OpenUSD's header of this name: memory is not tagged. The inline parts of that header refer to symbols that
-// come and go with releases (26.8 has one that 26.11 has not), and tags serve profiling alone.
+// Stands in for OpenUSD's header of this name: memory is not tagged. The inline parts of that
+// header refer to symbols that come and go with releases (26.8 has one, 26.11 lacks it), and tags
+// serve profiling alone.
 #ifndef ANICODEC_BINDINGS_USD_STAND_INS_MALLOC_TAG_H_
 #define ANICODEC_BINDINGS_USD_STAND_INS_MALLOC_TAG_H_
 
