@@ -138,7 +138,7 @@ TEST_F(AnicExamples, FrameToObj) {
 
 TEST(AnicReadme, ShowsTheProgramThatIsTested) {
   const std::string source = ANICODEC_SOURCE_DIR;
-  const std::string readme = text_of(source + "/README.md");
+  const std::string readme = text_of(source + "/sdk/README.md");
   std::string program = text_of(source + "/sdk/examples/frame_to_obj.c");
   program = program.substr(program.find("#include"));  // without its licence
   EXPECT_LE(std::count(program.begin(), program.end(), '\n'), 40);

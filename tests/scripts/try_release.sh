@@ -94,7 +94,7 @@ try_debian() {
   cp "$work/system/tmp/limb.html" "$work/limb.html"
   in_browser "file://$work/limb.html" limb "$work/debian.png"
   say "Headers, with a compiler"
-  sed -n '/^#include <anicodec/,/^```/p' "$root/README.md" | sed '$d' >"$work/system/tmp/frame_to_obj.c"
+  sed -n '/^#include <anicodec/,/^```/p' "$root/sdk/README.md" | sed '$d' >"$work/system/tmp/frame_to_obj.c"
   inside '
     apt-get -qq install -y --no-install-recommends gcc g++ libc6-dev pkg-config libzstd-dev libdraco-dev >/dev/null
     cd /tmp
