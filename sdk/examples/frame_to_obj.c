@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   anic_asset* clip;
   anic_context* player;
   anic_failure why = ANIC_INIT(anic_failure);
-  if (anic_open_asset_from_reader(&reader, (uint64_t)ftell(file), NULL, &clip, &why) != ANIC_OK)
+  if (anic_open_asset_from_reader(&reader, (uint64_t)ftell(file), NULL, &clip, &why))
     return fprintf(stderr, "%s: %s\n", anic_get_status_text(why.status), why.detail), 1;
   anic_mesh mesh = ANIC_INIT(anic_mesh);
   anic_polygons faces = ANIC_INIT(anic_polygons);
@@ -26,9 +26,8 @@ int main(int argc, char** argv) {
   anic_output out = ANIC_INIT(anic_output);
   out.size = mesh.vertex_count * 3 * sizeof(float);
   float* p = out.data = malloc(out.size + 1);
-  if (p == NULL || anic_create_context(clip, NULL, &player) != ANIC_OK ||
-      anic_seek_frame(player, 10) != ANIC_OK ||
-      anic_write_positions(player, 0, ANIC_WHEN_CURRENT, 0, mesh.vertex_count, &out) != ANIC_OK)
+  if (p == NULL || anic_create_context(clip, NULL, &player) || anic_seek_frame(player, 10) ||
+      anic_write_positions(player, 0, ANIC_WHEN_CURRENT, 0, mesh.vertex_count, &out))
     return fprintf(stderr, "this clip has no frame 10\n"), 1;
   for (uint32_t v = 0; v < mesh.vertex_count; ++v)
     printf("v %.9g %.9g %.9g\n", p[3 * v], p[3 * v + 1], p[3 * v + 2]);
