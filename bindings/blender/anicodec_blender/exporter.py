@@ -93,7 +93,7 @@ class ExportAnic(bpy.types.Operator, ExportHelper):
     end: IntProperty(name="End", default=250)
     space: EnumProperty(name="Space", items=[("WORLD", "World", ""), ("OBJECT", "Object", "")])
     error: FloatProperty(name="Largest Error", default=0.05, min=1e-7, precision=5)
-    error_unit: EnumProperty(name="Error In", items=[("PERCENT", "Per Cent", "Of the diagonal of the box around all"),
+    error_unit: EnumProperty(name="Error In", items=[("PERCENT", "Per Cent", "Share of the diagonal of the box around all"),
                                                      ("UNITS", "Scene Units", "")])
     effort: EnumProperty(name="Effort", description="How long to search", default="normal",
                          items=[("fast", "Fast", ""), ("normal", "Normal", ""), ("best", "Best", "")])

@@ -31,7 +31,7 @@ class AnicodecSettings(bpy.types.PropertyGroup):
 
     path: StringProperty(name="File", subtype="FILE_PATH", update=_changed)
     number: IntProperty(name="Mesh", description="Number of the mesh in the file", min=0, update=_changed)
-    clip: StringProperty(name="Clip", description="Of a file with several; none: the first", update=_changed,
+    clip: StringProperty(name="Clip", description="Clip of a file with several; none: the first", update=_changed,
                          search=_clip_names)
     start: FloatProperty(name="Start", description="Frame of the scene that shows the first frame", default=1,
                          update=_changed)

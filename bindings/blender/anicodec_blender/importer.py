@@ -31,7 +31,7 @@ class ImportAnic(bpy.types.Operator, ImportHelper):
                ("SHAPE_KEYS", "Shape Keys", "A shape key for each frame, for files that go without the add-on"),
                ("CACHE", "Mesh Cache", "A PC2 file beside the clip, and a modifier")])
     clip: StringProperty(name="Clip", description="Name of the clip of a file with several; none: the first")
-    set_scene: BoolProperty(name="Set Rate and Range", description="Of the scene, as in the clip", default=True)
+    set_scene: BoolProperty(name="Set Rate and Range", description="Rate and range of the scene follow the clip", default=True)
     pack: BoolProperty(name="Pack", description="Store the clip in the .blend file")
 
     def execute(self, context):

@@ -81,7 +81,7 @@ Polygons polygons_of(const Array<uint32_t>& offsets, const Array<uint32_t>& corn
 
 NB_MODULE(_anicodec, module) {
   using namespace anicodec::python;
-  module.doc() = "What the package anicodec is made of; use that.";
+  module.doc() = "The extension module inside the package anicodec; use the package.";
   module.attr("version") = std::to_string(ANIC_VERSION_MAJOR) + "." +
                            std::to_string(ANIC_VERSION_MINOR) + "." +
                            std::to_string(ANIC_VERSION_PATCH);
