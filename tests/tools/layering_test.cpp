@@ -156,6 +156,23 @@ TEST(Documents, PointToWhatExists) {
   EXPECT_EQ(outcome.status, 0) << outcome;
 }
 
+// Pages of docs/howto/ run it on their own tables.
+TEST(Documents, NameAllFilesThatTheirTablesAreAbout) {
+  TemporaryFolder folder;
+  folder.write("codec/named.cpp", "Kind::kNew\n");
+  folder.write("codec/missed.cpp", "Kind::kNew\n");
+  folder.write("codec/old.cpp", "Kind::kept\n");
+  folder.write("docs/page.md",
+               "`codec/missed.cpp`\n\n| `codec/named.cpp`, `codec/old.cpp` | x |\n");
+  const Outcome outcome =
+      run_program({"python3", ANICODEC_SOURCE_DIR "/tests/scripts/check_places.py", "--at",
+                   folder / "", "docs/page.md", "Kind::k[A-Z]", "codec"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.out,
+            "docs/page.md does not name codec/missed.cpp\n"
+            "codec/old.cpp, named by docs/page.md, has no Kind::k[A-Z]\n");
+}
+
 TEST(Documents, ShowARangeCodedStreamAsTheirTextDecodesIt) {
   Outcome outcome = run_program({"python3", ANICODEC_SOURCE_DIR "/tests/scripts/range_coder.py",
                                  "check", ANICODEC_SOURCE_DIR "/spec/A-examples.md"});
