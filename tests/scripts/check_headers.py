@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: The anicodec authors
 """Checks that every header compiles alone: it includes all that it names.
 
-A header that the source of its name includes first shows so in a build of preset dev, which compiles each source alone. The
+A header that the source of its name includes first shows so in a build of preset asan, which compiles each source alone. The
 others are compiled one by one, by the command of a source of their folder or of one above it.
 
 usage: check_headers.py CHECKOUT COMPILE_COMMANDS.json      one line for every fault; exit status 1 if there is any
