@@ -17,8 +17,6 @@ IntegerHash::IntegerHash() {
   XXH64_reset(new (state_) XXH64_state_t, 0);
 }
 
-IntegerHash::~IntegerHash() = default;
-
 void IntegerHash::add(const int32_t* values, size_t count) {
   auto* state = reinterpret_cast<XXH64_state_t*>(state_);
   uint8_t piece[1024];

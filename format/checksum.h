@@ -18,7 +18,6 @@ uint64_t xxh64(ByteView view);
 class IntegerHash {
  public:
   IntegerHash();
-  ~IntegerHash();
   IntegerHash(const IntegerHash&) = delete;
   IntegerHash& operator=(const IntegerHash&) = delete;
 

@@ -316,7 +316,7 @@ bool read_times(ByteReader& r, ClipRecord* out) {
   if (r.remaining() / 8 < out->frames)
     return false;
   out->times.resize(out->frames);
-  double before = -INFINITY;
+  double before = -HUGE_VAL;
   for (double& t : out->times) {
     t = r.f64();
     if (!std::isfinite(t) || t < before)

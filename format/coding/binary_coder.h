@@ -30,9 +30,9 @@ constexpr uint32_t kSymbolScale = uint32_t{1} << kSymbolBits;  ///< a symbol's p
 /// Adaptation rate of a probability that has seen n bits, 1 / (n + 1.5), in 1/32768.
 struct AdaptationRates {
   static constexpr int kCount = 256;
-  int32_t value[kCount];
+  int32_t value[kCount] = {};
 
-  constexpr AdaptationRates() : value{} {
+  constexpr AdaptationRates() {
     for (int n = 0; n < kCount; ++n)
       value[n] = 65536 / (2 * n + 3);
   }

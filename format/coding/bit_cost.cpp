@@ -12,9 +12,9 @@ constexpr int kTableBits = 10;
 /// -log2(x) in 1/65536 for x = (1024 + i) / 2048, i = 0..1024: bit by bit, squaring a 31-bit
 /// fraction.
 struct Table {
-  uint32_t value[(1 << kTableBits) + 1];
+  uint32_t value[(1 << kTableBits) + 1] = {};
 
-  constexpr Table() : value{} {
+  constexpr Table() {
     for (uint32_t i = 0; i < (1u << kTableBits); ++i) {
       uint64_t x = static_cast<uint64_t>((1u << kTableBits) + i) << (31 - kTableBits);  // 1.31
       uint32_t log = 0;

@@ -90,7 +90,7 @@ CosineTransform::CosineTransform(uint32_t length) : length_(length) {
     table_[2 * n + m] = -c;
     table_[(4 * n - m) % (4 * n)] = c;
   }
-  table_[n] = table_[3 * n] = 0;
+  table_[n] = table_[size_t{3} * n] = 0;
 }
 
 void CosineTransform::inverse(const int32_t* coefficients, int32_t* values) const {
@@ -101,7 +101,7 @@ void CosineTransform::inverse(const int32_t* coefficients, int32_t* values) cons
   std::fill_n(sums.begin(), half, int64_t{coefficients[0]} * constant_);
   constexpr size_t kAtOnce = 4;  // frequencies: a place in the table waits for the one before
   for (uint32_t first = 1; first <= 2; ++first) {
-    int64_t* sum = sums.data() + (first % 2) * half;
+    int64_t* sum = sums.data() + size_t{first % 2} * half;
     int64_t y[kAtOnce];
     uint32_t step[kAtOnce], m[kAtOnce];
     size_t count = 0;

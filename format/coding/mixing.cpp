@@ -10,7 +10,7 @@ constexpr uint64_t kDecay = 4290775039;  // floor(2^32 exp(-1/1024))
 
 }  // namespace
 
-ANICODEC_CONSTANT Logistic::Tables::Tables() : stretch{}, squash{} {
+ANICODEC_CONSTANT Logistic::Tables::Tables() {
   // e runs through 2^32 exp(-x / 1024) for x = 0, 1, ...
   uint64_t e = kWholeUnit;
   for (int32_t x = 0; x < 4 * kSquashEntries; ++x) {
@@ -27,7 +27,7 @@ ANICODEC_CONSTANT Logistic::Tables::Tables() : stretch{}, squash{} {
   for (int i = kStretchEntries / 2 - 1; i >= 0;
        --i) {  // p = (2i + 1) / 8192, the middle of an entry
     const auto odds = static_cast<uint64_t>(2 * i + 1);
-    while (e * (2 * kStretchEntries - odds) > odds * kWholeUnit) {
+    while (e * (uint64_t{2} * kStretchEntries - odds) > odds * kWholeUnit) {
       e = (e * kDecay) >> 32;
       ++x;
     }

@@ -49,8 +49,8 @@ class Logistic {
   static constexpr int32_t kStretchEntries = 4096, kSquashEntries = 2560;
 
   struct Tables {
-    int16_t stretch[kStretchEntries];
-    uint16_t squash[kSquashEntries];
+    int16_t stretch[kStretchEntries] = {};
+    uint16_t squash[kSquashEntries] = {};
     ANICODEC_CONSTANT Tables();
   };
 
@@ -82,9 +82,9 @@ class MixCounter {
 /// Learning rate of a set of weights after n bits, in 1/1024.
 struct LearningRates {
   static constexpr uint32_t kCount = 320;
-  int32_t value[kCount];
+  int32_t value[kCount] = {};
 
-  constexpr LearningRates() : value{} {
+  constexpr LearningRates() {
     for (int n = 0; n < static_cast<int>(kCount); ++n)
       value[n] = 8 + 320 / (n + 8);
   }
