@@ -91,10 +91,10 @@ UnitQuaternion leading_by_jacobi(const double n[4][4]) {
         double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
         double t = (theta < 0 ? -1 : 1) / (std::fabs(theta) + std::sqrt(theta * theta + 1));
         double c = 1 / std::sqrt(t * t + 1), s = t * c;
-        for (size_t k = 0; k < 4; ++k) {
-          double kp = a[k][p], kq = a[k][q];
-          a[k][p] = c * kp - s * kq;
-          a[k][q] = s * kp + c * kq;
+        for (auto& row : a) {
+          double kp = row[p], kq = row[q];
+          row[p] = c * kp - s * kq;
+          row[q] = s * kp + c * kq;
         }
         for (size_t k = 0; k < 4; ++k) {
           double pk = a[p][k], qk = a[q][k];
@@ -204,9 +204,9 @@ UnitQuaternion RotationVotes::leading() const {
 
 RotationVotes votes_for(const Matrix3& products) {
   double s[3][3], size = 0;
-  for (size_t i = 0; i < 3; ++i) {
-    for (size_t j = 0; j < 3; ++j)
-      size = std::max(size, std::fabs(products.m[i][j]));
+  for (const auto& row : products.m) {
+    for (const double product : row)
+      size = std::max(size, std::fabs(product));
   }
   RotationVotes votes;
   if (!(size > 0)) {

@@ -223,10 +223,10 @@ void normalise(float* blocks, uint32_t count) {
   using Lanes = LaneTypes<4>;
   for (uint32_t b = 0; b < block_count(count); ++b) {
     for (uint32_t i = 0; i < kBlock; i += 4) {
-      float* at = blocks + b * 3 * kBlock + i;
+      float* at = blocks + size_t{b} * 3 * kBlock + i;
       Lanes::Float v[3];
       for (uint32_t c = 0; c < 3; ++c)
-        std::memcpy(&v[c], at + c * kBlock, sizeof v[c]);
+        std::memcpy(&v[c], at + size_t{c} * kBlock, sizeof v[c]);
       // Scaled by a power of two: squares neither overflow nor vanish.
       Lanes::Float most{};
       for (const Lanes::Float& x : v) {
@@ -247,7 +247,7 @@ void normalise(float* blocks, uint32_t count) {
       for (uint32_t c = 0; c < 3; ++c) {
         const Lanes::Float up = Lanes::Float{} + (c == 2 ? 1.0F : 0.0F);
         const Lanes::Float unit = sound ? v[c] * inverse : up;
-        std::memcpy(at + c * kBlock, &unit, sizeof unit);
+        std::memcpy(at + size_t{c} * kBlock, &unit, sizeof unit);
       }
     }
   }

@@ -165,8 +165,7 @@ void store_exact(const FrameState& state, uint32_t first, uint32_t count,
 
 /// The next multiple of 8.
 double* aligned(float* p) {
-  const auto address = reinterpret_cast<uintptr_t>(p);
-  return reinterpret_cast<double*>((address + 7) / 8 * 8);
+  return reinterpret_cast<double*>(p + reinterpret_cast<uintptr_t>(p) % 8 / sizeof(float));
 }
 
 }  // namespace

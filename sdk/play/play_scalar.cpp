@@ -93,7 +93,7 @@ struct ScalarKernel {
       play_block<Channels>(job, job.frame[f], block, sums[f]);
       for (uint32_t i = 0; direct && i < kBlock; ++i) {
         const float point[3] = {sums[f][0][i], sums[f][1][i], sums[f][2][i]};
-        ANICODEC_COPY(direct[f] + 12 * i, point, sizeof point);
+        ANICODEC_COPY(direct[f] + size_t{12} * i, point, sizeof point);
       }
     }
   }

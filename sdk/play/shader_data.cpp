@@ -42,8 +42,8 @@ void write_layers(const T* from, uint32_t numbers, uint32_t vertices, uint32_t l
         const uint32_t v = row * layout.width + x;
         T texel[kGroup] = {};
         for (uint32_t i = 0; v < vertices && i < kGroup && kGroup * layer + i < numbers; ++i)
-          texel[i] =
-              from[(size_t{v / kBlock} * numbers + kGroup * layer + i) * kBlock + v % kBlock];
+          texel[i] = from[(size_t{v / kBlock} * numbers + size_t{kGroup} * layer + i) * kBlock +
+                          v % kBlock];
         if (fourth && v < vertices)
           texel[kGroup - 1] = static_cast<T>(fourth[v]);
         std::memcpy(place, texel, sizeof texel);

@@ -24,10 +24,10 @@ inline Float limited_coefficient(Float y) {
 /// To 1/64 step, ties to even.
 template <typename Float>
 inline Float rounded_prediction(Float p) {
-  constexpr float magic = 12582912.0f;  // 1.5 * 2^23: values near it are integers
+  constexpr float kMagic = 12582912.0f;  // 1.5 * 2^23: values near it are integers
   Float u = limited_coefficient(p) * 64.0f;
-  u = u + magic;
-  u = u - magic;
+  u = u + kMagic;
+  u = u - kMagic;
   return u * (1.0f / 64.0f);
 }
 
