@@ -141,8 +141,6 @@ async function meshopt() {
       }
       const name = `variant${variants.length}`;
       write(name, concatenated(parts, Uint8Array));
-      if (byUse)
-        write('places', places);
       variants.push({ name, encodeSeconds, decodeSeconds });
     }
   }

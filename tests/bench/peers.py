@@ -7,7 +7,7 @@ Prints bytes and processor time in multiples of those of `anicodec encode --kg 0
 KG error: a peer that rounds gets the largest step that keeps to it. A CLIP is one of the folder $ANICODEC_DATA (classic/dance), a corpus
 clip (limb), or a file with an animation to bake (Fox.glb@Survey, --fps 60); without any, the five real ones, or three of the corpus where
 there is no data. Packages of PyPI and npm, all of one version, go to a folder that is removed at the end; with --packages FOLDER it is
-made once and stays. Times are of one run: of JavaScript and Python for what exists only there, and of processes for commands.
+made once and stays. Bytes, error and times of each clip go to stderr as they are found. Times are of one run: of JavaScript and Python for what exists only there, and of processes for commands.
 """
 import argparse
 import importlib.metadata
@@ -67,6 +67,7 @@ class Clip:
         fans = [(face[0], face[i], face[i + 1]) for face in faces for i in range(1, len(face) - 1)]
         self.triangles = np.array(fans, dtype=np.uint32).reshape(-1, 3)
         self.frames, self.vertices = points.shape[:2]
+        self.lowest = points.reshape(-1, 3).min(0).astype(np.float64)
 
 
 def read_points(path):
@@ -209,22 +210,19 @@ def timed(function):
 # ---- peers: bytes, KG error, seconds to encode and to decode all frames
 
 
-def ours(clip, kg, command, folder, *options):
+def ours(clip, kg, command, folder):
     path, cache = folder / "ours.anic", folder / "ours.pc2"
-    encoding = run(command, "encode", *clip.files, "--kg", kg, "-j1", "-f", *options, "-o", path)
+    encoding = run(command, "encode", *clip.files, "--kg", kg, "-j1", "-f", "-o", path)
     decoding = run(command, "decode", path, "-f", "-o", cache)
-    error = kg_error(clip.points, read_points(cache)) if not options else None  # another order
-    return path.stat().st_size, error, encoding, decoding
+    return path.stat().st_size, kg_error(clip.points, read_points(cache)), encoding, decoding
 
 
-def draco(clip, kg, packages, folder):
+def draco(clip, step, packages, folder):
     """Every frame a mesh, speed 0, on one cubic grid, whose step is not bound to powers of two as Draco's own bits are."""
     import numpy as np
     from scipy.spatial import cKDTree
-    origin = clip.points.reshape(-1, 3).min(0).astype(np.float64)
-    step = step_at_kg(clip.points, origin, kg)
-    integers, rounded = on_grid(clip.points, origin, step)
-    task = {"origin": origin.tolist(), "step": step, "bits": max(2, int(integers.max()).bit_length()), "vertices": clip.vertices,
+    integers, rounded = on_grid(clip.points, clip.lowest, step)
+    task = {"origin": clip.lowest.tolist(), "step": step, "bits": max(2, int(integers.max()).bit_length()), "vertices": clip.vertices,
             "frames": clip.frames}
     result = in_node("draco", packages, folder, task, points=clip.points, triangles=clip.triangles)
     decoded = np.fromfile(folder / "decoded", np.float32).reshape(-1, 3)
@@ -238,23 +236,21 @@ def draco(clip, kg, packages, folder):
     return result["bytes"], kg_error(clip.points, back), result["encodeSeconds"], result["decodeSeconds"]
 
 
-def meshopt(clip, kg, packages, folder):
-    """Frame deltas on a cubic grid through the vertex codec and zstd -19: the smallest of four variants."""
+def meshopt(clip, step, packages, folder):
+    """Frame deltas on a cubic grid through the vertex codec and zstd -19: the variant of four that zstd -3 makes smallest."""
     import numpy as np
     import zstandard
-    origin = clip.points.reshape(-1, 3).min(0).astype(np.float64)
-    integers, rounded = on_grid(clip.points, origin, step_at_kg(clip.points, origin, kg))
+    integers, rounded = on_grid(clip.points, clip.lowest, step)
     task = {"vertices": clip.vertices, "frames": clip.frames, "largest": int(integers.max())}
-    found = []
-    for variant in in_node("meshopt", packages, folder, task, grid=integers.astype(np.uint32), triangles=clip.triangles)["variants"]:
-        data = (folder / variant["name"]).read_bytes()
-        packed, encoding = timed(lambda data=data: zstandard.compress(data, 19))
-        _, decoding = timed(lambda packed=packed: zstandard.decompress(packed))
-        found.append((len(packed), kg_error(clip.points, rounded), variant["encodeSeconds"] + encoding, variant["decodeSeconds"] + decoding))
-    return min(found)
+    variants = in_node("meshopt", packages, folder, task, grid=integers.astype(np.uint32), triangles=clip.triangles)["variants"]
+    files = {variant["name"]: (folder / variant["name"]).read_bytes() for variant in variants}
+    best = min(variants, key=lambda variant: len(zstandard.compress(files[variant["name"]], 3)))
+    packed, encoding = timed(lambda: zstandard.compress(files[best["name"]], 19))
+    _, decoding = timed(lambda: zstandard.decompress(packed))
+    return len(packed), kg_error(clip.points, rounded), best["encodeSeconds"] + encoding, best["decodeSeconds"] + decoding
 
 
-def gltfpack(clip, kg, packages, folder):
+def gltfpack(clip, kg, step, packages, folder):
     """A morph target per frame, `-cz` with the fewest bits; once as it is, once more through zstd -19."""
     import numpy as np
     import zstandard
@@ -277,7 +273,7 @@ def gltfpack(clip, kg, packages, folder):
         error = kg_error(clip.points, back)
         return [(size, error, encoding + seconds, result["decodeSeconds"]) for size, seconds in ((len(data), 0), (len(more), zstd))]
 
-    bits = min(MOST_BITS, max(1, int(extent / step_at_kg(clip.points, 0.0, kg)).bit_length()))
+    bits = min(MOST_BITS, max(1, int(extent / step).bit_length()))
     best = at(bits)
     while best[0][1] > kg:
         bits += 1
@@ -289,27 +285,23 @@ def gltfpack(clip, kg, packages, folder):
     return best
 
 
-def bodycompress(clip, kg, packages, folder):
-    """Multiples of one step, whatever its name says of millimetres; the smaller of two orders of vertices. It has no faces."""
+def bodycompress(clip, step, folder):
+    """Multiples of one step, whatever its name says of millimetres. It has no faces."""
     import numpy as np
     from bodycompress import BodyCompressor, BodyDecompressor
-    path, step = folder / "clip.xz", step_at_kg(clip.points, 0.0, kg)
+    path = folder / "clip.xz"
 
-    def write(order):
-        with BodyCompressor(str(path), quantization_mm=1.0, compression_level=9, vertex_order=order) as file:
+    def write():
+        with BodyCompressor(str(path), quantization_mm=1.0, compression_level=9, vertex_order=None) as file:
             for frame in clip.points:
-                file.append(vertices=frame.astype(np.float64) / step)
+                file.append(vertices=(frame - clip.lowest) / step)
 
-    found = []
-    for order in (None, np.argsort(np.fromfile(folder / "places", np.uint32))):
-        _, encoding = timed(lambda order=order: write(order))
-        size = path.stat().st_size
-        frames, decoding = timed(lambda: [frame["vertices"] for frame in BodyDecompressor(str(path))])
-        found.append((size, kg_error(clip.points, np.array(frames) * step), encoding, decoding))
-    return min(found)
+    _, encoding = timed(write)
+    frames, decoding = timed(lambda: [frame["vertices"] for frame in BodyDecompressor(str(path))])
+    return path.stat().st_size, kg_error(clip.points, clip.lowest + step * np.array(frames)), encoding, decoding
 
 
-def npz(clip, kg, packages, folder):
+def npz(clip, kg):
     """Float16 as it is, with the faces."""
     import numpy as np
     stream = io.BytesIO()
@@ -320,7 +312,7 @@ def npz(clip, kg, packages, folder):
     return (len(stream.getvalue()), error, encoding, decoding) if error <= kg else None
 
 
-def usdc(clip, kg, packages, folder):
+def usdc(clip, folder):
     import numpy as np
     from pxr import Usd, UsdGeom, Vt
     path = folder / "clip.usdc"
@@ -348,7 +340,7 @@ def usdc(clip, kg, packages, folder):
     return size, kg_error(clip.points, back), encoding, decoding
 
 
-def alembic(clip, kg, packages, folder):
+def alembic(clip, folder):
     import imath
     import numpy as np
     from alembic3d import Abc, AbcCoreAbstract, AbcGeom
@@ -379,19 +371,19 @@ def alembic(clip, kg, packages, folder):
 # ---- tables
 
 
-def measured(clip, kg, command, packages, folder):
+def measured(clip, kg, packages, folder):
     """Name of each peer: what it makes of the clip, None for what it cannot."""
-    packed = gltfpack(clip, kg, packages, folder)
+    step = step_at_kg(clip.points, clip.lowest, kg)
+    packed = gltfpack(clip, kg, step, packages, folder)
     return {
-        "ours, order free": ours(clip, kg, command, folder, "--order", "free"),
-        "meshopt": meshopt(clip, kg, packages, folder),
+        "meshopt": meshopt(clip, step, packages, folder),
         "gltfpack -cz": packed[0],
         "-cz, zstd -19": packed[1],
-        "Draco": draco(clip, kg, packages, folder),
-        "bodycompress": bodycompress(clip, kg, packages, folder),
-        "float16 .npz": npz(clip, kg, packages, folder),
-        "usdc": usdc(clip, kg, packages, folder),
-        "Alembic": alembic(clip, kg, packages, folder),
+        "Draco": draco(clip, step, packages, folder),
+        "bodycompress": bodycompress(clip, step, folder),
+        "float16 .npz": npz(clip, kg),
+        "usdc": usdc(clip, folder),
+        "Alembic": alembic(clip, folder),
     }
 
 
@@ -450,8 +442,8 @@ def main():
         for name in clips:
             folder = pathlib.Path(made)
             clip = find_clip(name, asked.command, asked.fps, folder)
-            print(f"{clip.name}: {clip.vertices} vertices, {clip.frames} frames", file=sys.stderr)
-            rows.append((clip, ours(clip, asked.kg, asked.command, folder), measured(clip, asked.kg, asked.command, asked.packages, folder)))
+            rows.append((clip, ours(clip, asked.kg, asked.command, folder), measured(clip, asked.kg, asked.packages, folder)))
+            print(f"{clip.name}, {clip.vertices} x {clip.frames}: {json.dumps(rows[-1][1:])}", file=sys.stderr, flush=True)
         print_tables(rows, asked.kg)
 
 
