@@ -172,6 +172,9 @@ def main():
     for kernel in ("Positions", "Normals") if shutil.which("glslangValidator") else ():
         run("glslangValidator", "-D", "-S", "comp", "-e", kernel, "-V", "-o", work / "kernel.spv", sdk / "Unity" / "AnicPlay.compute")
         print(f"kernel {kernel} compiles")
+    for kernel in ("Positions", "Normals") if shutil.which("dxc") else ():  # tests/scripts/dxc.py
+        run("dxc", "-T", "cs_6_0", "-E", kernel, "-Fo", work / "kernel.bin", sdk / "Unity" / "AnicPlay.compute")
+        print(f"kernel {kernel} compiles by DXC")
     if shutil.which("dotnet"):
         print(run_with_dotnet(tests, assembly, program, work, files, environment))
     else:

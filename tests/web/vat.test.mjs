@@ -63,7 +63,7 @@ test('shaders compile', { skip: skipCompiling }, (t) => {
   for (const hlsl of [unity(), unreal()])
     translated(hlsl, folder);
   if (!has('dxc'))
-    return t.diagnostic('there is no dxc: HLSL is compiled by glslang alone');
+    return t.diagnostic('there is no dxc (tests/scripts/dxc.py): HLSL is compiled by glslang alone');
   for (const hlsl of [unity(), unreal({ hoisted: false })])
     checkByDxc(hlsl, folder);
 });
