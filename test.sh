@@ -24,6 +24,7 @@ if $packages_wanted; then
   install_packages
   install_optional blender python3-numpy || say "No Blender: the test of its add-on is skipped"
   install_optional clang-format-14 || say "No clang-format 14: the test of formatting is skipped"
+  install_optional python3-clang || say "No libclang: the reader of the headers is not compared with it"
   install_optional abigail-tools || say "No libabigail: the test of the binary interface is skipped"
   install_optional libsdl2-dev libgl-dev libgl1-mesa-dri || say "No SDL2: the example that draws is left out"
   install_optional libogre-1.12-dev xvfb xauth || say "No OGRE: its plug-in is left out"

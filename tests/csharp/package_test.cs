@@ -440,7 +440,7 @@ internal static class PackageTest
         }
         foreach (MethodInfo m in natives.SelectMany(t => t.GetMethods(BindingFlags.Static | BindingFlags.Public)).Where(m => m.Name.StartsWith("anic_")))
             Console.WriteLine("function {0} {1}", m.Name, m.GetParameters().Length);
-        foreach (Type t in assembly.GetTypes().Where(t => t.IsEnum && t.IsPublic))
+        foreach (Type t in assembly.GetTypes().Where(t => t.IsEnum && (t.IsPublic || t.IsNestedPublic)))
         {
             foreach (string name in Enum.GetNames(t))
                 Console.WriteLine("constant {0} {1} {2}", t.Name, name, (int)Enum.Parse(t, name));

@@ -9,7 +9,6 @@ import json
 import os
 import pathlib
 import platform
-import re
 import shutil
 import subprocess
 import sys
@@ -18,16 +17,8 @@ import zipfile
 
 SKIPPED = 77
 CPU = {"x86_64": "x64", "aarch64": "arm64"}
-# The constants of the header by their prefix, and the enumeration that has them.
-ENUMERATIONS = {"ANIC_E_": "Status", "ANIC_UP_": "UpAxis", "ANIC_ORDER_": "VertexOrder", "ANIC_ATTRIBUTE_": "AttributeKind",
-                "ANIC_DOMAIN_": "Domain", "ANIC_ALPHA_": "AlphaMode", "ANIC_SAMPLE_": "Sampling", "ANIC_WRAP_": "Wrap", "ANIC_WHEN_": "When", "ANIC_SIDE_": "Side",
-                "ANIC_FORMAT_": "VertexFormat", "ANIC_VALUE_": "ValueFormat", "ANIC_BASIS_": "BasisKind",
-                "ANIC_TARGET_": "Target", "ANIC_GOAL_": "Goal", "ANIC_EFFORT_": "Effort", "ANIC_RECONSTRUCTION_": "Reconstruction", "ANIC_OPEN_": "OpenFlags", "ANIC_TEXTURE_": "BasisTexture"}
 # Names that are a constant of no enumeration of the header.
-EXTRA = {("Status", "Ok"), ("OpenFlags", "None")}
-# Fixed arrays of the header that C# writes as fields.
-ARRAYS = {("anic_parts", f"{field}{i}"): f"{of}[{i}]" for field, of in (("part", "parts"), ("pose_maps", "pose_maps"))
-          for i in range(4)}
+EXTRA = {("OpenFlags", "None"), ("EncodeFlags", "None")}
 
 
 def run(*command, **options):
@@ -43,61 +34,38 @@ def mcs(out, sources, *options):
     run("mcs", "-unsafe", "-langversion:latest", "-warnaserror", f"-target:{kind}", f"-out:{out}", *options, *sources)
 
 
-def constants(header):
-    """{(enumeration, name): number} of the header, with the names that C# gives them."""
-    found = {}
-    for name, number in re.findall(r"\b(ANIC_[A-Z0-9_]+) = (\d+)", header):
-        prefix = max((p for p in ENUMERATIONS if name.startswith(p)), key=len, default=None)
-        if prefix:
-            words = name.removeprefix(prefix).split("_")
-            found[ENUMERATIONS[prefix], "".join(word.capitalize() for word in words)] = int(number)
-    return found
-
-
 def layout_faults(layout, checkout, work, compiler):
-    """Differences between what C# declares and the header."""
-    includes = [checkout / module / "include" for module in ("sdk", "codec")]
-    header, encoder = ((folder / "anicodec" / name).read_text(encoding="utf-8")
-                       for folder, name in zip(includes, ("anicodec.h", "encode.h")))
-    lines = [line.split() for line in layout.splitlines()]
+    """Differences between what the assembly declares and the headers, as a compiler of C lays them out."""
+    sys.path.insert(0, str(checkout / "bindings" / "generate"))
+    import csharp
+    import headers
+    interface = headers.read(checkout)
+    both = (interface.decoder, interface.encoder)
+    ours = {line for line in layout.splitlines() if line.startswith(("struct", "field"))}
     prints = []
-    for kind, struct, *rest in lines:
-        if kind == "struct":
-            prints.append(f'printf("struct {struct} %zu\\n", sizeof({struct}));')
-        elif kind == "field":
-            member = ARRAYS.get((struct, rest[0]), rest[0])
-            prints.append(f'printf("field {struct} {rest[0]} %zu\\n", offsetof({struct}, {member}));')
+    for struct in (s for header in both for s in header.structs if s.name not in csharp.SHOWN_STRUCTS):
+        prints.append(f'printf("struct {struct.name} %zu\\n", sizeof({struct.name}));')
+        for field in struct.fields:
+            members = {field.name: field.name}
+            if field.count and (field.base not in csharp.TYPES or field.stars):  # C# has a field for each of them
+                members = {f"{field.name}{i}": f"{field.name}[{i}]" for i in range(field.count)}
+            prints += [f'printf("field {struct.name} {name} %zu\\n", offsetof({struct.name}, {member}));'
+                       for name, member in members.items()]
     source = work / "layout.c"
     source.write_text("#include <anicodec/encode.h>\n#include <stdio.h>\nint main(void) {\n" + "\n".join(prints) +
                       "\nreturn 0;\n}\n", encoding="utf-8")
-    run(compiler, "-std=c11", *(f"-I{folder}" for folder in includes), source, "-o", work / "layout")
-    ours = {line for line in layout.splitlines() if line.startswith(("struct", "field"))}
+    run(compiler, "-std=c11", *(f"-I{checkout / module / 'include'}" for module in ("sdk", "codec")), source, "-o", work / "layout")
     theirs = set(run(work / "layout").splitlines())
     yield from (f"C has {line}" for line in sorted(theirs - ours))
-    known = {(words[1], words[2]) for words in lines if words[0] == "field"}
-    known |= {(struct, member.split("[")[0]) for (struct, _), member in ARRAYS.items()}
-    for struct, body in re.findall(r"^typedef struct (anic_\w+) \{\n(.*?)^\}", header, re.MULTILINE | re.DOTALL):
-        declared = {words[1] for words in lines if words[0] == "struct"}
-        if struct in ("anic_box", "anic_correction", "anic_hit", "anic_surface_frame", "anic_surface_point"):
-            continue  # public structs of the package with names of their own
-        if struct not in declared:
-            yield f"C# has no struct {struct}"
-            continue
-        code = re.sub(r"/\*.*?\*/", "", body, flags=re.DOTALL)
-        code = re.sub(r"\(\*(\w+)\)\(.*?\);", r"\1;", code, flags=re.DOTALL)
-        for field in re.findall(r"(\w+)(?:\[\w+\])?\s*[;,]", code):
-            if (struct, field) not in known:
-                yield f"C# has no {struct}.{field}"
-    def functions_of(text):
-        code = re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)
-        return set(re.findall(r"ANIC_API[^;]*?\b(anic_\w+)\(", code))
-
-    ours = {words[1] for words in lines if words[0] == "function"}
-    live = {name for name in functions_of(encoder) if "_live" in name}  # of the encoder, live streams alone are for C#
-    yield from (f"C# has no function {name}" for name in sorted((functions_of(header) | live) - ours))
-    yield from (f"no header has a function {name}" for name in sorted(ours - functions_of(header) - functions_of(encoder)))
+    yield from (f"C# has {line}" for line in sorted(ours - theirs))
+    lines = [line.split() for line in layout.splitlines()]
+    told = {function.name: len(function.parameters) for header in both for function in header.functions}
+    declared = {words[1]: int(words[2]) for words in lines if words[0] == "function"}
+    yield from (f"{name} has {declared.get(name)} parameters in C#, {told.get(name)} in the headers"
+                for name in sorted(told.keys() | declared.keys()) if told.get(name) != declared.get(name))
     numbers = {(words[1], words[2]): int(words[3]) for words in lines if words[0] == "constant"}
-    wanted = constants(header + encoder)
+    wanted = {(csharp.enumeration_name(e), csharp.constant_name(e, c.name)): c.value
+              for header in both for e in header.enumerations for c in e.constants}
     for key in sorted(numbers.keys() | wanted.keys()):
         if key not in EXTRA and numbers.get(key) != wanted.get(key):
             yield f"{'.'.join(key)} is {numbers.get(key)} in C#, {wanted.get(key)} in the headers"

@@ -125,8 +125,8 @@ namespace Anicodec
         {
             Native.anic_ray ray = default(Native.anic_ray);
             ray.struct_size = (UIntPtr)sizeof(Native.anic_ray);
-            ray.origin = origin;
-            ray.direction = direction;
+            *(Point*)ray.origin = origin;
+            *(Point*)ray.direction = direction;
             ray.farthest = farthest;
             ray.side = side;
             fixed (uint* first = triangles)
@@ -151,7 +151,7 @@ namespace Anicodec
             Native.anic_parts parts;
             if (!Find(mesh, when, &parts) || (uint)part >= parts.count)
                 throw new ArgumentOutOfRangeException("part");
-            Native.anic_part* p = &parts.part0 + part;
+            Native.anic_part* p = &parts.parts0 + part;
             Native.anic_basis basis = default(Native.anic_basis);
             basis.struct_size = (UIntPtr)sizeof(Native.anic_basis);
             Native.Check(Native.anic_get_basis(asset.handle, p->segment, &basis));

@@ -135,9 +135,9 @@ namespace Anicodec
         {
             vertexCount = mesh.VertexCount;
             List<int> counts = new List<int>();
-            IntPtr encoder;
+            EncoderHandle encoder;
             Native.Check(NativeEncoder.anic_create_encoder(out encoder));
-            try
+            using (encoder)
             {
                 SetClip(encoder, options);
                 AddMesh(encoder, mesh);
@@ -151,10 +151,6 @@ namespace Anicodec
                     AddAttribute(encoder, attribute);
                 }
                 handle = Begin(encoder, options);
-            }
-            finally
-            {
-                NativeEncoder.anic_destroy_encoder(encoder);
             }
             valueCounts = counts.ToArray();
         }
@@ -259,7 +255,7 @@ namespace Anicodec
             return status == Status.Ok;
         }
 
-        private static void Check(IntPtr encoder, Status status)
+        private static void Check(EncoderHandle encoder, Status status)
         {
             if (status != Status.Ok)
                 throw new AnicException(status, Native.Text(NativeEncoder.anic_get_encoder_text(encoder)));
@@ -278,7 +274,7 @@ namespace Anicodec
             return elements * attribute.Components;
         }
 
-        private static void SetClip(IntPtr encoder, LiveOptions options)
+        private static void SetClip(EncoderHandle encoder, LiveOptions options)
         {
             NativeEncoder.anic_source_clip clip = default(NativeEncoder.anic_source_clip);
             clip.struct_size = (UIntPtr)sizeof(NativeEncoder.anic_source_clip);
@@ -294,7 +290,7 @@ namespace Anicodec
             }
         }
 
-        private static void AddMesh(IntPtr encoder, LiveMesh mesh)
+        private static void AddMesh(EncoderHandle encoder, LiveMesh mesh)
         {
             NativeEncoder.anic_source_mesh host = default(NativeEncoder.anic_source_mesh);
             host.struct_size = (UIntPtr)sizeof(NativeEncoder.anic_source_mesh);
@@ -311,7 +307,7 @@ namespace Anicodec
             }
         }
 
-        private static void AddAttribute(IntPtr encoder, LiveAttribute attribute)
+        private static void AddAttribute(EncoderHandle encoder, LiveAttribute attribute)
         {
             NativeEncoder.anic_source_attribute host = default(NativeEncoder.anic_source_attribute);
             host.struct_size = (UIntPtr)sizeof(NativeEncoder.anic_source_attribute);
@@ -327,14 +323,13 @@ namespace Anicodec
             }
         }
 
-        private static LiveHandle Begin(IntPtr encoder, LiveOptions options)
+        private static LiveHandle Begin(EncoderHandle encoder, LiveOptions options)
         {
-            const ulong Percent = 1;  // ANIC_ENCODE_PERCENT
             NativeEncoder.anic_encode_options encode = default(NativeEncoder.anic_encode_options);
             encode.struct_size = (UIntPtr)sizeof(NativeEncoder.anic_encode_options);
             encode.goal = options.Goal;
             encode.goal_value = options.GoalValue;
-            encode.flags = options.Percent ? Percent : 0;
+            encode.flags = options.Percent ? (ulong)NativeEncoder.EncodeFlags.Percent : 0;
             encode.attribute_error = options.AttributeError;
             encode.effort = options.Effort;
             encode.threads = (uint)options.Threads;
