@@ -127,7 +127,7 @@ namespace Anicodec
         Polygons = 2,
     }
 
-    /// <summary>What of a surface lets light through.</summary>
+    /// <summary>How a surface lets light through.</summary>
     public enum AlphaMode
     {
         Opaque = 0,

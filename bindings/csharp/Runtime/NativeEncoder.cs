@@ -94,7 +94,7 @@ namespace Anicodec
             Best = 3,
         }
 
-        /// <summary>What codes the poses of key-frames.</summary>
+        /// <summary>The coder of the poses of key-frames.</summary>
         public enum KeyframeCoder
         {
             /// <summary>The coder of poses: any decoder plays the file.</summary>
