@@ -80,8 +80,9 @@ double EncodingMemory::thread(const EncodeOptions& options) const {
          kTimes * frames;
 }
 
-double EncodingMemory::regions(double count) const {
-  return positions() + count * products(vertices / count) / 4;
+double EncodingMemory::regions(double count, double trajectories) const {
+  constexpr double kOfFrame = 4 * 24, kOfPair = 4 * 8;
+  return positions() + trajectories * (kOfFrame * frames + count * kOfPair * trajectories);
 }
 
 double EncodingMemory::basis(BasisKind kind, double components, Effort effort,

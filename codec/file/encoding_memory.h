@@ -38,8 +38,9 @@ struct EncodingMemory {
   /// More for each thread.
   double thread(const EncodeOptions& options) const;
 
-  /// More where surfaces are cut into so many regions: the positions once more, and products of each.
-  double regions(double count) const;
+  /// More where surfaces are cut into so many regions: the positions once more, a space of so many trajectories, and
+  /// products of each region in it.
+  double regions(double count, double trajectories) const;
 
   /// More for a basis of so many components in each of the regions, with the trials that use it.
   double basis(BasisKind kind, double components, Effort effort, double regions = 1) const;

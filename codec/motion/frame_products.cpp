@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/motion/frame_products.h"
 
+#include "codec/algebra/blocked_product.h"
 #include "codec/algebra/leading_eigenpairs.h"
 #include "codec/algebra/trajectory_gram.h"
 
@@ -80,6 +81,14 @@ size_t FrameProducts::best_frame() const {
 MatrixXd FrameProducts::leading_trajectories(Index count) const {
   const auto n = static_cast<double>(clip_.vertex_count);
   return leading_eigenpairs(gram_ - sums_ * sums_.transpose() / n, count, 0).vectors;
+}
+
+MatrixXd FrameProducts::space_of_trajectories(Index count) const {
+  constexpr Index kDirect = 144;  // rows, up to which no Krylov space is smaller
+  if (gram_.rows() <= std::max(count, kDirect))
+    return leading_trajectories(count);
+  const auto times_gram = [&](const MatrixXd& columns) { return product(gram_, columns); };
+  return leading_eigenspace(times_gram, gram_.rows(), count / 3, count).vectors;
 }
 
 VectorXd FrameProducts::frame_energies(Index most) const {

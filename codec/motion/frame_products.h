@@ -18,6 +18,7 @@ class FrameProducts : public MotionProducts {
   double energy() const override;
   size_t best_frame() const override;
   Eigen::MatrixXd leading_trajectories(Eigen::Index count) const override;
+  Eigen::MatrixXd space_of_trajectories(Eigen::Index count) const override;
   Eigen::VectorXd frame_energies(Eigen::Index most) const override;
   TimeComponents beyond_span(BasisKind kind, const Eigen::MatrixXd& span, Eigen::Index most,
                              double smallest) const override;

@@ -5,10 +5,23 @@
 #include "codec/motion/frame_products.h"
 #include "codec/motion/motion_sketch.h"
 #include "codec/motion/vertex_products.h"
+#include "codec/parallel/parallel.h"
 
 #include <algorithm>
+#include <numeric>
+#include <vector>
 
 namespace anicodec {
+
+double motion_energy(const FrameView& clip, const Eigen::Vector3d& origin) {
+  std::vector<double> squares(clip.frame_count, 0);
+  parallel_for(size_t{0}, clip.frame_count, [&](size_t f) {
+    const float* p = clip.frame(f);
+    for (size_t v = 0; v < clip.vertex_count; ++v, p += 3)
+      squares[f] += (Eigen::Vector3d(p[0], p[1], p[2]) - origin).squaredNorm();
+  });
+  return std::accumulate(squares.begin(), squares.end(), 0.0);
+}
 
 std::unique_ptr<const MotionProducts> motion_products(const FrameView& clip,
                                                       const Eigen::Vector3d& origin,

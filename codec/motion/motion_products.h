@@ -41,6 +41,12 @@ class MotionProducts {
   /// The leading trajectories about the centroids: 3 frames x at most `count`.
   virtual Eigen::MatrixXd leading_trajectories(Eigen::Index count) const = 0;
 
+  /// Orthonormal trajectories, `count` at most, whose span has about the leading third of as many: the others guess at
+  /// what is left.
+  virtual Eigen::MatrixXd space_of_trajectories(Eigen::Index count) const {
+    return leading_trajectories(count);
+  }
+
   /// Squared singular values of whole frames, the largest.
   virtual Eigen::VectorXd frame_energies(Eigen::Index most) const = 0;
 
@@ -53,6 +59,9 @@ class MotionProducts {
   virtual TimeComponents beyond_pose(const Eigen::MatrixXd& pose, Eigen::Index most,
                                      double smallest) const = 0;
 };
+
+/// Sum of all squared coordinates relative to an origin. Same bits for any number of threads.
+double motion_energy(const FrameView& clip, const Eigen::Vector3d& origin);
 
 /// The products of a clip, which must outlive them: frame by frame, vertex by vertex, or by a sketch. `sums`: of the
 /// coordinates over the vertices, 3 frames.

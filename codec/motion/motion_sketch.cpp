@@ -5,12 +5,9 @@
 #include "codec/algebra/leading_eigenpairs.h"
 #include "codec/algebra/trajectory_gram.h"
 #include "codec/motion/vertex_products.h"
-#include "codec/parallel/parallel.h"
 #include "codec/sequence/frame_array.h"
 
 #include <algorithm>
-#include <numeric>
-#include <vector>
 
 namespace anicodec {
 namespace {
@@ -28,16 +25,6 @@ constexpr Index kFewestSketched = 48;
 // motion, and so do blocks that come when little motion is left. Noise of 592 to 608 vertices lost
 // the last 8 to 16 components with half as many.
 constexpr Index kBeyondRank = 32;
-
-double energy_of(const FrameView& clip, const Vector3d& origin) {
-  std::vector<double> squares(clip.frame_count, 0);
-  parallel_for(size_t{0}, clip.frame_count, [&](size_t f) {
-    const float* p = clip.frame(f);
-    for (size_t v = 0; v < clip.vertex_count; ++v, p += 3)
-      squares[f] += (Vector3d(p[0], p[1], p[2]) - origin).squaredNorm();
-  });
-  return std::accumulate(squares.begin(), squares.end(), 0.0);
-}
 
 }  // namespace
 
@@ -85,7 +72,7 @@ class MotionSketch::Rows {
 };
 
 MotionSketch::MotionSketch(const FrameView& clip, const Vector3d& origin, const VectorXd& sums)
-    : clip_(clip), origin_(origin), sums_(sums), energy_(energy_of(clip, origin)) {}
+    : clip_(clip), origin_(origin), sums_(sums), energy_(motion_energy(clip, origin)) {}
 
 MotionSketch::~MotionSketch() = default;
 
@@ -104,7 +91,7 @@ size_t MotionSketch::best_frame() const {
 }
 
 MatrixXd MotionSketch::leading_trajectories(Index count) const {
-  return rows_for(0).products().leading_trajectories(count);
+  return rows_for(count).products().leading_trajectories(count);
 }
 
 VectorXd MotionSketch::frame_energies(Index most) const {

@@ -27,6 +27,9 @@ constexpr size_t kFirstComponents = 48;  // found at first; twice as many whenev
 constexpr size_t kFewComponents = 16;    // of regions: steps of what is found at first
 // The part of the whole's components is regions^this or less: on chicken, dance, horse and flag 0.5 to 0.7 in 2 and 4, 0.3 to 0.7 in 8.
 constexpr double kComponentsOfRegions = -0.3;
+// Trajectories of the space that components of regions are found in, for each component of the whole. `encode --kg 0.1` of
+// dance, chicken, horse, flag and face with 2 to 6 and with all trajectories: below 3 files grow.
+constexpr double kSpaceOfRegions = 3;
 constexpr size_t kRichComponents = 24;   // of clips whose surface is
 constexpr size_t kFewestVertices = 200;  // of a region, on average
 // Ratios to the bytes of the whole. By expectation, which ranks cuts badly, all below are tried;
@@ -156,7 +159,23 @@ void LinearCoder::reserve(uint32_t regions) {
   if (!cut.memory)
     cut.memory =
         input_.take_memory(analysis_.clip().frame_count, "the motion of regions of the surface",
-                           [&](const EncodingMemory& m) { return m.regions(regions); });
+                           [&](const EncodingMemory& m) {
+                             return m.regions(regions, kSpaceOfRegions * components_of_whole());
+                           });
+}
+
+double LinearCoder::components_of_whole() const {
+  return choice_.components_of_whole > 0 ? choice_.components_of_whole
+                                         : static_cast<double>(most_components(choice_.settings));
+}
+
+const std::shared_ptr<const Eigen::MatrixXd>& LinearCoder::space() {
+  if (!space_) {
+    const double count = kSpaceOfRegions * components_of_whole();
+    space_ = std::make_shared<const Eigen::MatrixXd>(
+        analysis_.space_of_trajectories(static_cast<size_t>(count)));
+  }
+  return space_;
 }
 
 const RegionAnalysis& LinearCoder::analysis_of(uint32_t regions) {
@@ -172,7 +191,7 @@ const RegionAnalysis& LinearCoder::analysis_of(uint32_t regions) {
   }
   if (!cut.analysis)
     cut.analysis = std::make_unique<RegionAnalysis>(
-        std::make_shared<const RegionClips>(analysis_.clip(), cut.of_vertex, regions));
+        std::make_shared<const RegionClips>(analysis_.clip(), cut.of_vertex, regions), space());
   return *cut.analysis;
 }
 
@@ -369,6 +388,9 @@ void LinearCoder::try_regions(double rmse) {
     } catch (const OverMemory&) {  // fewer regions may do, and one does
     }
   }
+  if (counts.empty())
+    return;
+  space();
   parallel_tasks(counts.size(), [&](size_t i) {
     input_.begin(SearchStep::kAnalysis);
     analysis_of(counts[i]);
@@ -376,7 +398,7 @@ void LinearCoder::try_regions(double rmse) {
   for (const uint32_t regions : counts) {
     LinearChoice cut = choice_;
     cut.regions = regions;
-    cut.components_of_whole = static_cast<double>(most_components(choice_.settings));
+    cut.components_of_whole = components_of_whole();
     cut.aim *= std::pow(regions, kAimOfRegions);
     input_.begin(SearchStep::kAnalysis);
     try {

@@ -152,6 +152,10 @@ class LinearCoder : public SegmentCoder {
   std::shared_ptr<const EncodedPose> coded_pose(MadeBasis& made, const LinearSettings& settings);
   /// Takes the memory that so many regions need. Throws OverMemory.
   void reserve(uint32_t regions);
+  /// Components that the clip takes without regions, about.
+  double components_of_whole() const;
+  /// The space of trajectories that components of regions are found in. Made when first asked for.
+  const std::shared_ptr<const Eigen::MatrixXd>& space();
   const RegionAnalysis& analysis_of(uint32_t regions);
   void try_regions(double rmse);
   double expected_bytes(const LinearChoice& choice);
@@ -197,6 +201,7 @@ class LinearCoder : public SegmentCoder {
   Eigen::MatrixXd given_pose_;
   std::unique_ptr<Bases> bases_;
   std::map<uint32_t, Regions> regions_;  ///< by their number
+  std::shared_ptr<const Eigen::MatrixXd> space_;
 };
 
 }  // namespace anicodec

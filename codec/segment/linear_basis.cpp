@@ -41,6 +41,21 @@ MatrixXd affine_span(const MatrixXd& pose) {
   return orthonormal_span(columns);
 }
 
+/// The three leading trajectories of a clip, mapped onto a pose; that pose if they look nothing like the mesh.
+MatrixXd rank_three_pose(const FrameView& clip, const Vector3d& origin, const MatrixXd& leading,
+                         const MatrixXd& target) {
+  if (leading.cols() < 3)
+    return target;
+  MatrixXd functions(target.rows(), 3);
+  combine_rows(clip, origin, leading, [&](size_t first, const MatrixXd& block) {
+    functions.middleRows(static_cast<Index>(first), block.rows()) = block;
+  });
+  const MatrixXd span = affine_span(functions);
+  const MatrixXd pose = span * (span.transpose() * target);
+  const double size = (target.rowwise() - target.colwise().mean()).squaredNorm();
+  return (pose - target).squaredNorm() < 0.3 * size ? pose : target;
+}
+
 }  // namespace
 
 LinearAnalysis::LinearAnalysis(const FrameView& clip) : clip_(clip) {
@@ -103,21 +118,6 @@ MatrixXd LinearAnalysis::frame(size_t f) const {
   return pose;
 }
 
-MatrixXd LinearAnalysis::rank_three_pose(const MatrixXd& target) const {
-  const MatrixXd leading = products_->leading_trajectories(3);
-  if (leading.cols() < 3)
-    return target;
-  MatrixXd functions(target.rows(), 3);
-  combine_rows(clip_, origin_, leading, [&](size_t first, const MatrixXd& block) {
-    functions.middleRows(static_cast<Index>(first), block.rows()) = block;
-  });
-  const MatrixXd span = affine_span(functions);
-  const MatrixXd pose = span * (span.transpose() * target);
-  // A clip whose leading trajectories look nothing like the mesh would give a useless geometry.
-  const double size = (target.rowwise() - target.colwise().mean()).squaredNorm();
-  return (pose - target).squaredNorm() < 0.3 * size ? pose : target;
-}
-
 MatrixXd LinearAnalysis::pose(ReferencePose kind, const MatrixXd* given_pose) const {
   switch (kind) {
     case ReferencePose::kMean: {
@@ -133,7 +133,8 @@ MatrixXd LinearAnalysis::pose(ReferencePose kind, const MatrixXd* given_pose) co
     case ReferencePose::kFrame:
       return frame(products_->best_frame());
     case ReferencePose::kRankThree:
-      return rank_three_pose(given_pose ? *given_pose : frame(products_->best_frame()));
+      return rank_three_pose(clip_, origin_, products_->leading_trajectories(3),
+                             given_pose ? *given_pose : frame(products_->best_frame()));
     case ReferencePose::kGiven:
       break;
   }
@@ -161,12 +162,32 @@ LinearBasis LinearAnalysis::basis(BasisKind kind, ReferencePose pose, Base base,
   return out;
 }
 
-RegionAnalysis::RegionAnalysis(std::shared_ptr<const RegionClips> clips)
-    : clips_(std::move(clips)) {
-  analyses_.resize(clips_->count());
-  parallel_for(size_t{0}, analyses_.size(), [&](size_t r) {
-    analyses_[r] = std::make_unique<const LinearAnalysis>(clips_->clip(r));
+RegionAnalysis::RegionAnalysis(std::shared_ptr<const RegionClips> clips,
+                               const std::shared_ptr<const MatrixXd>& space)
+    : clips_(std::move(clips)), regions_(clips_->count()) {
+  parallel_for(size_t{0}, regions_.size(), [&](size_t r) {
+    const FrameView clip = clips_->clip(r);
+    Vector3d origin = Vector3d::Zero();
+    if (clip.vertex_count > 0)
+      origin = frame_centroids(clip).colwise().mean().transpose();
+    regions_[r].emplace(Region{origin, SpaceProducts(clip, origin, space)});
   });
+}
+
+LinearBasis RegionAnalysis::basis_of(size_t region, const MatrixXd& pose, bool rank_three,
+                                     size_t max_components) const {
+  const auto& [origin, products] = *regions_[region];
+  LinearBasis out;
+  out.origin = origin;
+  out.pose = rank_three ? rank_three_pose(clips_->clip(region), origin,
+                                          products.leading_trajectories(3), pose)
+                        : pose;
+  TimeComponents components =
+      products.beyond_span(affine_span(out.pose), static_cast<Index>(max_components), 0);
+  out.base_energy = components.base_energy;
+  out.energies = std::move(components.energies);
+  out.time = std::move(components.time);
+  return out;
 }
 
 LinearBasis RegionAnalysis::basis(const LinearAnalysis& whole, ReferencePose pose,
@@ -177,12 +198,10 @@ LinearBasis RegionAnalysis::basis(const LinearAnalysis& whole, ReferencePose pos
   // The leading trajectories of a region, mapped onto a frame that all regions share.
   const bool by_region = pose == ReferencePose::kRankThree;
   out.pose = whole.pose(by_region ? ReferencePose::kFrame : pose, given_pose);
-  out.regions.resize(analyses_.size());
-  parallel_for(size_t{0}, analyses_.size(), [&](size_t r) {
-    const MatrixXd rows = out.pose(clips_->vertices(r), Eigen::all);
+  out.regions.resize(regions_.size());
+  parallel_for(size_t{0}, regions_.size(), [&](size_t r) {
     out.regions[r] =
-        analyses_[r]->basis(BasisKind::kEigentrajectories, by_region ? pose : ReferencePose::kGiven,
-                            Base::kAffine, max_components, 0, &rows);
+        basis_of(r, out.pose(clips_->vertices(r), Eigen::all), by_region, max_components);
   });
   for (size_t r = 0; r < out.regions.size(); ++r) {
     out.pose(clips_->vertices(r), Eigen::all) = out.regions[r].pose;

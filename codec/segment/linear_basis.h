@@ -4,6 +4,7 @@
 #define ANICODEC_CODEC_SEGMENT_LINEAR_BASIS_H_
 
 #include "codec/motion/motion_products.h"
+#include "codec/motion/space_products.h"
 #include "codec/segment/surface_regions.h"
 #include "codec/sequence/frame_view.h"
 #include "format/records.h"
@@ -12,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -84,6 +86,12 @@ class LinearAnalysis {
 
   const FrameView& clip() const { return clip_; }
 
+  /// A space of trajectories for RegionAnalysis: that of the leading third of `count`, and a guess at others.
+  /// Cost O(frames^2 count).
+  Eigen::MatrixXd space_of_trajectories(size_t count) const {
+    return products_->space_of_trajectories(static_cast<Eigen::Index>(count));
+  }
+
   /// How many vector fields any basis needs at least for its frames to have this squared error.
   /// Cost: that of the eigenpairs.
   size_t fewest_fields(double squared_error) const;
@@ -95,7 +103,6 @@ class LinearAnalysis {
   void measure();
   void set_reference();
   Eigen::MatrixXd frame(size_t f) const;
-  Eigen::MatrixXd rank_three_pose(const Eigen::MatrixXd& target) const;
 
   FrameView clip_;
   Eigen::Vector3d origin_;
@@ -107,16 +114,26 @@ class LinearAnalysis {
 /// The same for eigentrajectories of regions, over one pose of the whole.
 class RegionAnalysis {
  public:
-  /// Cost: that of an analysis of the whole.
-  explicit RegionAnalysis(std::shared_ptr<const RegionClips> clips);
+  /// `space`: of trajectories of the whole, orthonormal (LinearAnalysis::space_of_trajectories()); components are found
+  /// within it. Cost: that of SpaceProducts for the whole.
+  RegionAnalysis(std::shared_ptr<const RegionClips> clips,
+                 const std::shared_ptr<const Eigen::MatrixXd>& space);
 
   /// As LinearAnalysis::basis(), with Base::kAffine; at most max_components in each region.
   LinearBasis basis(const LinearAnalysis& whole, ReferencePose pose, size_t max_components,
                     const Eigen::MatrixXd* given_pose = nullptr) const;
 
  private:
+  struct Region {
+    Eigen::Vector3d origin;
+    SpaceProducts products;
+  };
+
+  LinearBasis basis_of(size_t region, const Eigen::MatrixXd& pose, bool rank_three,
+                       size_t max_components) const;
+
   std::shared_ptr<const RegionClips> clips_;
-  std::vector<std::unique_ptr<const LinearAnalysis>> analyses_;
+  std::vector<std::optional<Region>> regions_;
 };
 
 }  // namespace anicodec

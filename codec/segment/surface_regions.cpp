@@ -21,8 +21,9 @@ using Eigen::MatrixXd;
 
 constexpr size_t kMostFrames = 48;                // looked at
 constexpr size_t kMostNumbers = size_t{1} << 24;  // of the trajectories looked at
-constexpr size_t kMostSamples = 1024;  // vertices of a region that its trajectories are found by
-constexpr Index kRank = 8;             // of them
+constexpr size_t kSamples =
+    1024;                   // vertices of a region that its trajectories are found by, on average
+constexpr Index kRank = 8;  // of them
 constexpr Index kDirect = 64;  // numbers of a trajectory, from which on few axes are cheaper
 constexpr int kRounds = 20, kSmoothings = 3;
 constexpr double kFewestMoves = 0.002;  // of the vertices, in a round that is not the last
@@ -31,7 +32,7 @@ constexpr double kSizePower = 0.5;      // of what a size counts for
 
 using RowMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The frames looked at: trajectories in rows, about the mean of all, and [1, mean position].
+/// The frames looked at: in rows [1, mean position, trajectory] of each vertex, relative to the centroid of all.
 struct Trajectories {
   explicit Trajectories(const FrameView& clip) {
     const size_t n = clip.vertex_count;
@@ -44,13 +45,20 @@ struct Trajectories {
       const auto row = static_cast<Index>(v);
       double mean[3] = {};
       for (size_t f = 0; f < some.frame_count; ++f) {
-        for (size_t c = 0; c < 3; ++c) {
-          const float x = some.frame(f)[3 * v + c];
-          motion(row, static_cast<Index>(3 * f + c)) = x;
-          mean[c] += static_cast<double>(x) / static_cast<double>(some.frame_count);
-        }
+        for (size_t c = 0; c < 3; ++c)
+          mean[c] += double{some.frame(f)[3 * v + c]} / static_cast<double>(some.frame_count);
       }
       base.row(row) << 1, mean[0], mean[1], mean[2];
+    });
+    const Eigen::RowVector3d origin = base.rightCols<3>().colwise().mean();
+    base.rightCols<3>().rowwise() -= origin;
+    parallel_for(size_t{0}, n, [&](size_t v) {
+      const auto row = static_cast<Index>(v);
+      for (size_t f = 0; f < some.frame_count; ++f) {
+        for (size_t c = 0; c < 3; ++c)
+          motion(row, static_cast<Index>(3 * f + c)) =
+              static_cast<float>(double{some.frame(f)[3 * v + c]} - origin[static_cast<Index>(c)]);
+      }
     });
   }
 
@@ -58,28 +66,58 @@ struct Trajectories {
   MatrixXd base;
 };
 
+/// The products of all pairs of columns of Trajectories, summed over the vertices of a region looked at.
+class RegionProducts {
+ public:
+  explicit RegionProducts(const Trajectories& all)
+      : all_(all), upper_(MatrixXd::Zero(kBase + all.motion.cols(), kBase + all.motion.cols())) {}
+
+  void add(const std::vector<uint32_t>& vertices) { upper_ += products(vertices); }
+
+  void remove(const std::vector<uint32_t>& vertices) { upper_ -= products(vertices); }
+
+  /// Upper triangle.
+  const MatrixXd& upper() const { return upper_; }
+
+  static constexpr Index kBase = 4;
+
+ private:
+  MatrixXd products(const std::vector<uint32_t>& vertices) const {
+    MatrixXd sums = MatrixXd::Zero(upper_.rows(), upper_.cols());
+    const auto depth = static_cast<size_t>(panel_depth(upper_.cols()));
+    for (size_t first = 0; first < vertices.size(); first += depth) {
+      const size_t count = std::min(depth, vertices.size() - first);
+      MatrixXd panel(static_cast<Index>(count), upper_.cols());
+      for (size_t i = 0; i < count; ++i) {
+        const auto row = static_cast<Index>(i);
+        const uint32_t v = vertices[first + i];
+        panel.row(row).head<kBase>() = all_.base.row(v);
+        panel.row(row).tail(all_.motion.cols()) = all_.motion.row(v).cast<double>();
+      }
+      add_self_products(panel, sums);
+    }
+    return sums;
+  }
+
+  const Trajectories& all_;
+  MatrixXd upper_;
+};
+
 /// How much of the motion of a vertex a region explains.
 class RegionModel {
  public:
-  RegionModel(const Trajectories& all, const std::vector<uint32_t>& vertices) : all_(all) {
-    const size_t step = std::max<size_t>((vertices.size() + kMostSamples - 1) / kMostSamples, 1);
-    const auto n = static_cast<Index>((vertices.size() + step - 1) / step);
-    MatrixXd base(n, 4), motion(n, all.motion.cols());
-    for (Index i = 0; i < n; ++i) {
-      const uint32_t v = vertices[static_cast<size_t>(i) * step];
-      base.row(i) = all.base.row(v);
-      motion.row(i) = all.motion.row(v).cast<double>();
-    }
-    MatrixXd gram = MatrixXd::Zero(4, 4), products_of_base = MatrixXd::Zero(4, motion.cols());
-    add_products(base, base, gram);
-    add_products(base, motion, products_of_base);
-    gram.diagonal() *= 1 + 1e-9;
-    affine_ = solve_symmetric(gram, products_of_base);
-    motion -= base * affine_;
-    MatrixXd products = MatrixXd::Zero(motion.cols(), motion.cols());
-    add_self_products(motion, products);
+  RegionModel(const Trajectories& all, const RegionProducts& of_region) : all_(all) {
+    constexpr Index kBase = RegionProducts::kBase;
+    MatrixXd products = of_region.upper();
     mirror_upper(products);
-    axes_ = leading_eigenpairs(products, kRank, 0, kDirect).vectors;
+    const Index motion = products.cols() - kBase;
+    const MatrixXd of_base = products.topRightCorner(kBase, motion);
+    MatrixXd gram = products.topLeftCorner(kBase, kBase);
+    gram.diagonal() *= 1 + 1e-9;
+    affine_ = solve_symmetric(gram, of_base);
+    const MatrixXd rest =
+        products.bottomRightCorner(motion, motion) - of_base.transpose() * affine_;
+    axes_ = leading_eigenpairs(rest, kRank, 0, kDirect).vectors;
   }
 
   /// The squared motion of a vertex that is left.
@@ -96,7 +134,14 @@ class RegionModel {
 class RegionSearch {
  public:
   RegionSearch(const FrameView& clip, const MeshGraph& graph, uint32_t count)
-      : graph_(graph), count_(count), all_(clip), regions_(clip.vertex_count, 0) {
+      : graph_(graph),
+        count_(count),
+        all_(clip),
+        regions_(clip.vertex_count, 0),
+        products_(count, RegionProducts(all_)) {
+    const size_t step = std::max<size_t>(clip.vertex_count / (kSamples * count), 1);
+    for (size_t v = 0; v < clip.vertex_count; v += step)
+      samples_.push_back({static_cast<uint32_t>(v), kNoRegion});
     find_pieces();
   }
 
@@ -112,6 +157,13 @@ class RegionSearch {
   }
 
  private:
+  static constexpr uint8_t kNoRegion = UINT8_MAX;
+
+  struct Sample {
+    uint32_t vertex;
+    uint8_t region;  ///< whose products have it
+  };
+
   size_t size() const { return regions_.size(); }
 
   /// Calls visit(u) for the neighbours of a vertex.
@@ -184,23 +236,41 @@ class RegionSearch {
     }
   }
 
-  std::vector<std::vector<uint32_t>> members() const {
-    std::vector<std::vector<uint32_t>> result(count_);
-    for (uint32_t v = 0; v < size(); ++v)
-      result[regions_[v]].push_back(v);
+  std::vector<size_t> sizes() const {
+    std::vector<size_t> result(count_);
+    for (const uint8_t r : regions_)
+      ++result[r];
     return result;
+  }
+
+  /// Follows the vertices that went to other regions.
+  void update_products() {
+    std::vector<std::vector<uint32_t>> come(count_), gone(count_);
+    for (Sample& sample : samples_) {
+      const uint8_t now = regions_[sample.vertex];
+      if (now == sample.region)
+        continue;
+      come[now].push_back(sample.vertex);
+      if (sample.region != kNoRegion)
+        gone[sample.region].push_back(sample.vertex);
+      sample.region = now;
+    }
+    for (uint32_t r = 0; r < count_; ++r) {
+      products_[r].add(come[r]);
+      products_[r].remove(gone[r]);
+    }
   }
 
   /// Moves vertices to the region of a neighbour that leaves less; returns how many.
   size_t move_borders() {
-    const std::vector<std::vector<uint32_t>> all = members();
+    update_products();
     std::vector<RegionModel> models;
     std::vector<double> price;
     const double mean = static_cast<double>(size()) / count_;
-    for (const std::vector<uint32_t>& vertices : all) {
-      models.emplace_back(all_, vertices);
-      price.push_back(std::pow(static_cast<double>(vertices.size()) / mean, kSizePower));
-    }
+    for (const size_t vertices : sizes())
+      price.push_back(std::pow(static_cast<double>(vertices) / mean, kSizePower));
+    for (const RegionProducts& products : products_)
+      models.emplace_back(all_, products);
     std::vector<uint8_t> wanted(regions_.begin(), regions_.end());
     parallel_for(uint32_t{0}, static_cast<uint32_t>(size()), [&](uint32_t v) {
       uint32_t near = 0;
@@ -239,9 +309,7 @@ class RegionSearch {
 
   /// Does as vertices want, as long as the region that they leave is not small.
   size_t take(const std::vector<uint8_t>& wanted) {
-    std::vector<size_t> sizes(count_);
-    for (uint8_t r : regions_)
-      ++sizes[r];
+    std::vector<size_t> sizes = this->sizes();
     size_t moved = 0;
     for (uint32_t v = 0; v < size(); ++v) {
       if (wanted[v] == regions_[v] || sizes[regions_[v]] <= fewest())
@@ -275,6 +343,8 @@ class RegionSearch {
   uint32_t count_;
   Trajectories all_;
   Vector<uint8_t> regions_;
+  std::vector<Sample> samples_;
+  std::vector<RegionProducts> products_;
   std::vector<uint32_t> piece_;                ///< of each vertex
   std::vector<std::vector<uint32_t>> pieces_;  ///< connected vertices
 };

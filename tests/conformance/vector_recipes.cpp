@@ -59,7 +59,8 @@ Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
         recipe.region_of
             ? RegionAnalysis(
                   std::make_shared<const RegionClips>(
-                      frames, recipe.region_of(input.layout.sizes.coded_vertices), recipe.regions))
+                      frames, recipe.region_of(input.layout.sizes.coded_vertices), recipe.regions),
+                  std::make_shared<const Eigen::MatrixXd>(analysis.space_of_trajectories(1000)))
                   .basis(analysis, ReferencePose::kRankThree, 1000)
             : analysis.basis(recipe.kind, shapes ? ReferencePose::kMean : ReferencePose::kRankThree,
                              shapes ? Base::kPose : Base::kAffine, most, 0);

@@ -61,7 +61,9 @@ class Sheet {
     for (uint32_t v = 0; v < of_vertex.size(); ++v)
       of_vertex[v] = static_cast<uint8_t>(
           (scattered ? v : layout.coded_source[v] % kWaveWidth * regions / kWaveWidth) % regions);
-    return RegionAnalysis(std::make_shared<const RegionClips>(view(), of_vertex, regions))
+    return RegionAnalysis(
+               std::make_shared<const RegionClips>(view(), of_vertex, regions),
+               std::make_shared<const Eigen::MatrixXd>(analysis.space_of_trajectories(1000)))
         .basis(analysis, ReferencePose::kRankThree, 1000);
   }
 
