@@ -23,6 +23,8 @@ constexpr double kNear = 0.04;      // of the error asked for: sizes can be comp
 // Relative doubt of a size from one trial: with 0.01, quad_box at --kg 0.1 grew by more effort.
 constexpr double kDoubt = 0.03;
 constexpr size_t kMostComponents = 2000;
+// Files of dance, horse, chicken, flag and face at --kg 0.1 vary by less than 0.2 % with 4 to 32.
+constexpr double kPoseStepsOfOctave = 8;
 constexpr size_t kFirstComponents = 48;  // found at first; twice as many whenever all are of use
 constexpr size_t kFewComponents = 16;    // of regions: steps of what is found at first
 // The part of the whole's components is regions^this or less: on chicken, dance, horse and flag 0.5 to 0.7 in 2 and 4, 0.3 to 0.7 in 8.
@@ -61,6 +63,12 @@ constexpr double kWorthOfBest = 1.03, kWorthSearching = 0.99;
 constexpr size_t kMostApproaches = 2;  // of all but the best effort
 constexpr size_t kFewSteps = 4;        // before kinds are compared for the first time
 constexpr size_t kMostFailures = 5;  // steps in a row that do not help end the search, but the best
+
+/// The step of the pose on a grid, so that trials of nearly the same steps share a coded pose.
+double shared_pose_step(const LinearSettings& settings, size_t frames) {
+  return std::exp2(std::round(std::log2(pose_step(settings, frames)) * kPoseStepsOfOctave) /
+                   kPoseStepsOfOctave);
+}
 
 size_t most_components(const LinearSettings& settings) {
   return settings.components.empty() ? 0 : std::ranges::max(settings.components);
@@ -151,7 +159,15 @@ std::shared_ptr<const EncodedPose> LinearCoder::coded_pose(MadeBasis& made,
     made.pose.emplace(made.basis.pose, made.basis.origin, input_.layout,
                       bytes_per_nanosecond(smallest_));
   });
-  return made.pose->at_step(pose_step(settings, analysis_.clip().frame_count));
+  const double step = shared_pose_step(settings, analysis_.clip().frame_count);
+  {
+    const std::scoped_lock lock(made.mutex);
+    if (const auto found = made.poses.find(step); found != made.poses.end())
+      return found->second;
+  }
+  std::shared_ptr<const EncodedPose> pose = made.pose->at_step(step);
+  const std::scoped_lock lock(made.mutex);
+  return made.poses.try_emplace(step, std::move(pose)).first->second;
 }
 
 void LinearCoder::reserve(uint32_t regions) {
@@ -338,6 +354,12 @@ double LinearCoder::probe(double rmse) {
   return probed_.bytes;
 }
 
+void LinearCoder::open_like(const LinearCoder& other) {
+  std::erase_if(opening_steps_, [&](const LinearStep& step) {
+    return std::ranges::find(other.choice_.steps, step.name) == other.choice_.steps.end();
+  });
+}
+
 bool LinearCoder::tries_regions() const {
   return !pose_ && effort_ > Effort::kFast && kind_ == BasisKind::kEigentrajectories &&
          input_.allows(kRegionsMean);
@@ -458,9 +480,11 @@ double LinearCoder::choose_settings(double rmse, Steps wanted) {
       if (wanted == Steps::kFew)
         return least_;
     }
+    if (wanted == Steps::kAll)
+      return least_;
     failures_ = 0;
     if (!smallest_)
-      try_steps(opening_steps(), rmse);
+      try_steps(opening_steps_, rmse);
   }
   chosen_ = true;
   return least_;
@@ -508,7 +532,7 @@ bool LinearCoder::try_steps(std::span<const LinearStep> steps, double rmse) {
 }
 
 double LinearCoder::prepare(double rmse) {
-  choose_settings(rmse, Steps::kAll);
+  choose_settings(rmse, Steps::kOpening);
   approaches_.clear();
   approaches_.emplace_back(choice_);
   // One trial tells a size but roughly: what fewer steps end with may be smaller yet.

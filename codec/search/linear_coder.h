@@ -28,8 +28,8 @@ namespace anicodec {
 /// that give the smallest streams, and the step that meets an error.
 class LinearCoder : public SegmentCoder {
  public:
-  /// Steps that are tried: those that kinds are compared after, or all of the effort.
-  enum class Steps { kFew, kAll };
+  /// Steps that are tried: those that kinds are compared after, all of the effort, and those that speed opening, too.
+  enum class Steps { kFew, kAll, kOpening };
 
   /// The analysis, of the frames from `first_frame` on, must outlive the coder. Bytes below include
   /// the worth of opening time, unless the `smallest` file is wanted.
@@ -71,6 +71,7 @@ class LinearCoder : public SegmentCoder {
     if (choice_.regions > 1)
       regions_[choice_.regions].of_vertex = other.regions_.at(choice_.regions).of_vertex;
     choice_.steps = other.choice_.steps;
+    choice_.aim = other.choice_.aim;
     choice_.price = other.choice_.price;
     thorough_ = other.thorough_;
   }
@@ -80,6 +81,9 @@ class LinearCoder : public SegmentCoder {
 
   /// The same from as few trials as come close to the error, three at most, and with regions.
   double probe(double rmse);
+
+  /// Of the steps that speed opening, tries those alone that another coder, which has tried all, has kept.
+  void open_like(const LinearCoder& other);
 
   /// Whether regions may take off some of what one trial costs.
   bool tries_regions() const;
@@ -133,8 +137,10 @@ class LinearCoder : public SegmentCoder {
   struct MadeBasis {
     MemoryShare memory;
     LinearBasis basis;
-    std::once_flag first_use;                  ///< of what follows
-    std::optional<ReferencePoseEncoder> pose;  ///< of the basis
+    std::once_flag first_use;                                    ///< of what follows
+    std::optional<ReferencePoseEncoder> pose;                    ///< of the basis
+    std::mutex mutex;                                            ///< of what follows
+    std::map<double, std::shared_ptr<const EncodedPose>> poses;  ///< by their step
   };
 
   /// By pose, base, regions and the most components that one of them has.
@@ -189,6 +195,7 @@ class LinearCoder : public SegmentCoder {
   bool thorough_ = false;  ///< files are coded with joint rounding and refitted weights
   size_t steps_done_ = 0;  ///< of linear_steps()
   size_t failures_ = 0;    ///< of steps, in a row
+  std::vector<LinearStep> opening_steps_ = opening_steps();
   double least_ = 0;       ///< bytes in the trial of the settings chosen, until an error is met
   double least_rmse_ = 0;  ///< in that trial
   Probed probed_;

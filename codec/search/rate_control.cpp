@@ -243,6 +243,9 @@ RateControl::LinearCoders RateControl::linear_coders(const LinearAnalysis& analy
       if (is_behind(kBehind))
         coders.pop_back();
     }
+    coders[0]->choose_settings(rmse, LinearCoder::Steps::kOpening);
+    if (coders.size() == 2)
+      coders[1]->open_like(*coders[0]);
   }
   return coders;
 }

@@ -35,10 +35,11 @@ TimeSegmentation::TimeSegmentation(const EncoderInput& input, const LinearCoder&
   }
 }
 
-LinearCoder TimeSegmentation::coder(const LinearAnalysis& analysis, const FrameRun& range) const {
+LinearCoder TimeSegmentation::coder(const LinearAnalysis& analysis, const FrameRun& range,
+                                    const LinearCoder& like) const {
   LinearCoder coder(input_, analysis, whole_.kind(), Effort::kFast, 1, whole_.smallest(),
                     range.first);
-  coder.settings_of(whole_);
+  coder.settings_of(like);
   coder.share_pose(pose_);
   return coder;
 }
@@ -47,14 +48,14 @@ LinearAnalysis TimeSegmentation::analysis(const FrameRun& range) const {
   return {whole_.analysis(), range.first, range.count};
 }
 
-double TimeSegmentation::probed(const FrameRun& range) const {
+double TimeSegmentation::probed(const FrameRun& range, const LinearCoder& like) const {
   const LinearAnalysis of_range = analysis(range);
-  return coder(of_range, range).probe(rmse_) + kChunks;
+  return coder(of_range, range, like).probe(rmse_) + kChunks;
 }
 
 std::optional<CodedPart> TimeSegmentation::coded(const FrameRun& range) const {
   const LinearAnalysis of_range = analysis(range);
-  LinearCoder coder_of_range = coder(of_range, range);
+  LinearCoder coder_of_range = coder(of_range, range, whole_);
   return within_bounds(coder_of_range, input_, range.first, rmse_);
 }
 
@@ -74,15 +75,16 @@ std::optional<uint32_t> TimeSegmentation::candidate(const FrameRun& range) const
   return std::nullopt;
 }
 
-void TimeSegmentation::split(const FrameRun& range, double bytes, std::vector<FrameRun>* out) {
+void TimeSegmentation::split(const FrameRun& range, double bytes, const LinearCoder& like,
+                             std::vector<FrameRun>* out) const {
   if (std::optional<uint32_t> cut = candidate(range)) {
     FrameRun left{range.first, *cut - range.first};
     FrameRun right{*cut, range.first + range.count - *cut};
     double of_left = 0, of_right = 0;
-    parallel_invoke([&] { of_left = probed(left); }, [&] { of_right = probed(right); });
+    parallel_invoke([&] { of_left = probed(left, like); }, [&] { of_right = probed(right, like); });
     if (of_left + of_right < kWorthIt * bytes) {
-      split(left, of_left, out);
-      split(right, of_right, out);
+      split(left, of_left, like, out);
+      split(right, of_right, like, out);
       return;
     }
   }
@@ -93,10 +95,10 @@ std::vector<FrameRun> TimeSegmentation::of_clips() {
   std::vector<FrameRun> ranges;
   double bytes = 0;  // of the last range
   for (const InputClip& clip : input_.clips) {
-    const double alone = probed(clip.frames);
+    const double alone = probed(clip.frames, whole_);
     if (!ranges.empty() && ranges.back().count + clip.frames.count <= kMostShared) {
       const FrameRun both{ranges.back().first, ranges.back().count + clip.frames.count};
-      const double shared = probed(both);
+      const double shared = probed(both, whole_);
       if (shared < bytes + alone) {
         ranges.back() = both;
         bytes = shared;
@@ -116,7 +118,11 @@ std::vector<FrameRun> TimeSegmentation::find() {
   std::vector<FrameRun> ranges;
   if (!candidate(all))
     return {all};
-  split(all, probed(all), &ranges);
+  // Parts begin near the error asked for by what this one has learnt.
+  const LinearAnalysis of_all = analysis(all);
+  LinearCoder like = coder(of_all, all, whole_);
+  const double bytes = like.probe(rmse_) + kChunks;
+  split(all, bytes, like, &ranges);
   return ranges;
 }
 

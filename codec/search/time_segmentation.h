@@ -34,11 +34,14 @@ class TimeSegmentation {
 
  private:
   std::vector<FrameRun> of_clips();
-  void split(const FrameRun& range, double bytes, std::vector<FrameRun>* out);
+  void split(const FrameRun& range, double bytes, const LinearCoder& like,
+             std::vector<FrameRun>* out) const;
   std::optional<uint32_t> candidate(const FrameRun& range) const;
-  double probed(const FrameRun& range) const;
+  /// The bytes of a range by the settings of another coder.
+  double probed(const FrameRun& range, const LinearCoder& like) const;
   LinearAnalysis analysis(const FrameRun& range) const;
-  LinearCoder coder(const LinearAnalysis& analysis, const FrameRun& range) const;
+  LinearCoder coder(const LinearAnalysis& analysis, const FrameRun& range,
+                    const LinearCoder& like) const;
 
   const EncoderInput& input_;
   const LinearCoder& whole_;
