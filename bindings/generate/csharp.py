@@ -11,7 +11,7 @@ TYPES = {"size_t": "UIntPtr", "ptrdiff_t": "IntPtr", "uint8_t": "byte", "char": 
 #: Enumerations that have another name than in C, by their prefix.
 RENAMED = {"ANIC_ORDER_": "VertexOrder", "ANIC_ALPHA_": "AlphaMode", "ANIC_FORMAT_": "VertexFormat", "ANIC_VALUE_": "ValueFormat",
            "ANIC_TEXTURE_": "BasisTexture", "ANIC_OPEN_": "OpenFlags", "ANIC_ENCODE_": "EncodeFlags"}
-#: Those of the encoder that hosts see: live streams alone are for C#.
+#: Handles of the encoder that hosts see: live streams alone are for C#.
 SHOWN = ("anic_goal", "anic_effort")
 #: Structs that the package shows as they are, with names of its own: Structs.cs.
 SHOWN_STRUCTS = {"anic_box": "Box", "anic_surface_point": "SurfacePoint", "anic_surface_frame": "SurfaceFrame", "anic_hit": "Hit",

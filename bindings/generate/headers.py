@@ -47,7 +47,7 @@ class Enumeration:
 
     @property
     def prefix(self) -> str:
-        """What the names of its constants share: ANIC_WRAP_."""
+        """The prefix of its constants: ANIC_WRAP_."""
         names = [constant.name for constant in self.constants if constant.name != "ANIC_OK"]
         length = next((i for i, letters in enumerate(zip(*names)) if len(set(letters)) > 1), len(names[0]))
         return names[0][:names[0].rfind("_", 0, length) + 1]

@@ -82,7 +82,7 @@ class LinearCoder : public SegmentCoder {
   /// The same from as few trials as come close to the error, three at most, and with regions.
   double probe(double rmse);
 
-  /// Of the steps that speed opening, tries those alone that another coder, which has tried all, has kept.
+  /// Tries a step that speeds opening only if another coder, which has tried all of them, kept it.
   void open_like(const LinearCoder& other);
 
   /// Whether regions may take off some of what one trial costs.

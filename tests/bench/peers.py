@@ -134,8 +134,8 @@ def step_at_kg(points, origin, kg):
 
 
 def same_trajectories(points, packed, used):
-    """Of each vertex the one of `packed` whose trajectory is nearest, of those that are near along some random directions; of a vertex
-    without faces -1."""
+    """The vertex of `packed` with the nearest trajectory, for each vertex, among candidates that are near along some random directions;
+    -1 for a vertex without faces."""
     import numpy as np
     from scipy.spatial import cKDTree
     frames = len(points)

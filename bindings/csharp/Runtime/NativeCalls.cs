@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What stands beside the declarations of Native.cs and NativeEncoder.cs: libraries, errors, texts.
+// Helpers beside the declarations of Native.cs and NativeEncoder.cs: libraries, errors, texts.
 using System;
 using System.Text;
 
