@@ -41,7 +41,7 @@ class MotionProducts {
   /// The leading trajectories about the centroids: 3 frames x at most `count`.
   virtual Eigen::MatrixXd leading_trajectories(Eigen::Index count) const = 0;
 
-  /// Orthonormal trajectories, `count` at most, whose span has about the leading third of as many: the others guess at
+  /// About `count` orthonormal trajectories, whose span has about the leading third of as many: the others guess at
   /// what is left.
   virtual Eigen::MatrixXd space_of_trajectories(Eigen::Index count) const {
     return leading_trajectories(count);
