@@ -83,6 +83,10 @@ TEST_F(AnicExamples, PlayInCpp) {
   expect_runs("play_cpp", "0.00 s: vertex 0 at ");
 }
 
+TEST_F(AnicExamples, Buffers) {
+  expect_runs("buffers_c", " ns a vertex for positions");
+}
+
 TEST_F(AnicExamples, Stream) {
   expect_runs("stream_c", ": whole, from ");
 }

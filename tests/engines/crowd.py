@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
-"""Runs the crowd example on conformance files: positions of the shader against the library's, and the picture.
+"""Runs the examples crowd and draw on conformance files: positions of the shader against the library's, and the pictures.
 
-usage: crowd.py PROGRAM CHECKOUT WORK      exit status 77: skipped, for the reason printed
+usage: crowd.py PROGRAM CHECKOUT WORK      PROGRAM: crowd, draw beside it; exit status 77: skipped, for the reason printed
 """
 import pathlib
 import sys
@@ -28,6 +28,10 @@ def main():
         fault = picture.compare(work / f"{name}.ppm", "crowd")
         if fault:
             sys.exit(fault)
+    drawing.run(program.with_name(program.name.replace("crowd", "draw")), files[0], 5, work / "draw.ppm",
+                SDL_VIDEODRIVER="offscreen")
+    if fault := picture.compare(work / "draw.ppm", "draw"):
+        sys.exit(fault)
 
 
 if __name__ == "__main__":
