@@ -3,7 +3,7 @@
 #include "codec/search/motion_error.h"
 
 #include "codec/metrics/metrics.h"
-#include "sdk/play/play.h"
+#include "codec/segment/segment_player.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -22,14 +22,7 @@ class Player {
     const auto part = std::ranges::find_if(parts_, [f](const CodedPart& p) {
       return f < p.encoded.sizes.first_frame + p.encoded.sizes.frames;
     });
-    const Segment& segment = part->opened;
-    shape_.resize(shape_size(segment));
-    scratch_.resize(shape_scratch_size(segment));
-    coded_.resize(size_t{3} * segment.vertices);
-    FrameState state = frame_state(segment, f - part->encoded.sizes.first_frame);
-    make_shape(&state, shape_.data(), scratch_.data());
-    play(state, 0, segment.vertices, coded_.data());
-    return by_source(coded_.data());
+    return by_source(player_.play(part->opened, f - part->encoded.sizes.first_frame));
   }
 
   std::span<const float> by_source(const float* coded) {
@@ -43,7 +36,8 @@ class Player {
  private:
   const std::vector<CodedPart>& parts_;
   const EncoderInput& input_;
-  std::vector<float> shape_, scratch_, coded_, source_;
+  SegmentPlayer player_;
+  std::vector<float> source_;
 };
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include "codec/segment/encoded_segment.h"
 
 #include "codec/parallel/parallel.h"
+#include "codec/segment/segment_player.h"
 #include "codec/sequence/error.h"
 #include "format/status.h"
-#include "sdk/play/play.h"
 #include "sdk/segment/correction_coding.h"
 
 #include <algorithm>
@@ -22,14 +22,9 @@ void for_each_frame(const Segment& segment, Visit visit) {
   constexpr uint32_t kFrames = 8;
   uint32_t tasks = (segment.frames + kFrames - 1) / kFrames;
   parallel_for(uint32_t{0}, tasks, [&](uint32_t task) {
-    std::vector<float> decoded(size_t{3} * segment.vertices);
-    std::vector<float> shape(shape_size(segment)), scratch(shape_scratch_size(segment));
-    for (uint32_t f = task * kFrames; f < std::min(segment.frames, (task + 1) * kFrames); ++f) {
-      FrameState state = frame_state(segment, f);
-      make_shape(&state, shape.data(), scratch.data());
-      play(state, 0, segment.vertices, decoded.data());
-      visit(f, decoded.data());
-    }
+    SegmentPlayer player;
+    for (uint32_t f = task * kFrames; f < std::min(segment.frames, (task + 1) * kFrames); ++f)
+      visit(f, player.play(segment, f));
   });
 }
 
