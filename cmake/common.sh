@@ -16,7 +16,7 @@ packages=(
   libgtest-dev libgmock-dev python3            # tests
   python3-dev                                  # the Python package
   python3-venv                                 # the same; sources of libraries, by pip
-  gltfpack liblzma-dev                         # other codecs to compare with
+  liblzma-dev                                  # a compressor to compare with
 )
 
 say() { printf '\n== %s\n' "$*"; }

@@ -25,15 +25,12 @@ struct BenchOptions {
   bool verbose = false;
 };
 
-/// Bytes at KG errors in per cent, and Draco and frame deltas at no larger error.
+/// Bytes at KG errors in per cent, and of float32 caches through zstd and xz.
 Table run_rate(const BenchOptions& options, const std::vector<double>& targets);
 
-/// Bytes of glTF files' clips at a KG error, order kept, against gltfpack -cc at no larger error
-/// and against what the file itself spends on the clip. A word is FILE or FILE@ANIMATION. With
-/// `normals` both sides have those of every frame, ours made from positions and hard edges, and
-/// ours has texture coordinates, which gltfpack drops where no texture uses them.
-Table run_gltf(const BenchOptions& options, double kg, const std::optional<FrameRate>& rate,
-               bool normals);
+/// Bytes of glTF files' clips, positions and faces, at a KG error, order kept, against what the file
+/// itself spends on the clip. A word is FILE or FILE@ANIMATION.
+Table run_gltf(const BenchOptions& options, double kg, const std::optional<FrameRate>& rate);
 
 /// Bytes at a maximum error in per cent of the diagonal, and frame deltas at the same.
 Table run_near(const BenchOptions& options, double max_error_percent);

@@ -7,17 +7,11 @@
 #include "tests/bench/benches.h"
 #include "tools/inputs/clip_input.h"
 #include "tools/io/files/byte_source.h"
-#include "tools/peers/gltfpack.h"
 #include "tools/words/names.h"
 
-#include <algorithm>
-#include <cstdio>
 #include <filesystem>
-#include <iterator>
 #include <limits>
 #include <set>
-
-#include <fmt/format.h>
 
 namespace anicodec::bench {
 namespace {
@@ -119,70 +113,37 @@ uint64_t raw_bytes(const GltfDocument& document, const std::string& animation) {
   return bytes.sum();
 }
 
-/// Faces, texture coordinates and hard edges as our decoder gets them: its faces have an order of
-/// their own.
-void take_decoded_mesh(const Bytes& file, MeshSequence& sequence) {
-  Clip clip;
-  if (!clip.open(file).ok())
-    throw Error(ErrorKind::kInternal, "the encoded file cannot be opened");
-  MeshSequence decoded = describe_clip(clip, meshes_of(clip));
-  sequence.polygons = std::move(decoded.polygons);
-  static_cast<MeshDetails&>(sequence) = std::move(decoded);
-}
-
 ordered_json measure(const std::string& word, const BenchOptions& options, double kg,
-                     const std::optional<FrameRate>& rate, bool normals) {
+                     const std::optional<FrameRate>& rate) {
   const auto [file, animation] = split(word);
   const GltfDocument document = read_document(file);
   MeshSequence sequence = bake_gltf(document, {.rate = rate, .clip = animation});
   const uint64_t raw = raw_bytes(document, sequence.name);
-  // Neither side stores anything else.
-  std::vector<Attribute> kept;
-  std::ranges::copy_if(sequence.attributes, std::back_inserter(kept), [&](const Attribute& a) {
-    return normals && (a.kind == AttributeKind::kUv || a.kind == AttributeKind::kNormal);
-  });
-  static_cast<MeshDetails&>(sequence) = {};
-  sequence.attributes = std::move(kept);
+  static_cast<MeshDetails&>(sequence) = {};  // nor are other things counted in the source
   const TimedEncode timed = encode_timed(sequence, {ErrorMetric::kKg, kg, false}, options.basis,
                                          options.effort, options.verbose, OrderMode::kVertices);
   const EncodeResult& result = timed.result;
   const auto bytes = static_cast<double>(result.file.size());
-  ordered_json row{{"clip", fs::path(file).filename().string()},
-                   {"animation", sequence.name},
-                   {"vertices", sequence.vertex_count},
-                   {"frames", sequence.frame_count},
-                   {"fps", sequence.rate.value()},
-                   {"asked_kg", kg},
-                   {"kg", result.kg},
-                   {"bytes", result.file.size()},
-                   {"basis", name_of(result.kind)},
-                   {"components", result.components},
-                   {"encode_cpu_seconds", timed.cpu_seconds},
-                   {"raw_bytes", raw},
-                   {"ours_to_raw", bytes / static_cast<double>(raw)}};
-  if (gltfpack_version().empty())
-    return row;
-  if (normals)
-    take_decoded_mesh(result.file, sequence);
-  const GltfpackClip packed =
-      gltfpack_at_kg(sequence, kg, normals ? GltfpackInput::kNormals : GltfpackInput::kPositions);
-  row["gltfpack_bits"] = packed.bits;
-  row["gltfpack_vertices"] = packed.vertices;
-  row["gltfpack_kg"] = packed.kg;
-  row["morph_bytes"] = packed.source_bytes;
-  row["gltfpack_bytes"] = packed.bytes;
-  row["gltfpack_ratio"] = static_cast<double>(packed.bytes) / bytes;
-  return row;
+  return {{"clip", fs::path(file).filename().string()},
+          {"animation", sequence.name},
+          {"vertices", sequence.vertex_count},
+          {"frames", sequence.frame_count},
+          {"fps", sequence.rate.value()},
+          {"asked_kg", kg},
+          {"kg", result.kg},
+          {"bytes", result.file.size()},
+          {"basis", name_of(result.kind)},
+          {"components", result.components},
+          {"encode_cpu_seconds", timed.cpu_seconds},
+          {"raw_bytes", raw},
+          {"ours_to_raw", bytes / static_cast<double>(raw)}};
 }
 
 }  // namespace
 
-Table run_gltf(const BenchOptions& options, double kg, const std::optional<FrameRate>& rate,
-               bool normals) {
+Table run_gltf(const BenchOptions& options, double kg, const std::optional<FrameRate>& rate) {
   if (options.clips.empty())
     throw Error(ErrorKind::kUsage, "no clip is named");
-  if (gltfpack_version().empty())
-    fmt::print(stderr, "gltfpack cannot be run and is left out; Debian has it in gltfpack\n");
   Table table({{"clip", "file", ""},
                {"animation", "animation", ""},
                {"vertices", "vertices", ""},
@@ -193,16 +154,10 @@ Table run_gltf(const BenchOptions& options, double kg, const std::optional<Frame
                {"basis", "kind", ""},
                {"components", "k", ""},
                {"encode_cpu_seconds", "CPU s", "{:.1f}"},
-               {"gltfpack_bits", "-vp", ""},
-               {"gltfpack_vertices", "vertices", ""},
-               {"gltfpack_kg", "KG", "{:.4f}"},
-               {"morph_bytes", "morph GLB bytes", ""},
-               {"gltfpack_bytes", "gltfpack bytes", ""},
-               {"gltfpack_ratio", "ratio", "{:.1f}"},
                {"raw_bytes", "bytes in the source", ""},
                {"ours_to_raw", "ours : source", "{:.2f}"}});
   for (const std::string& word : options.clips)
-    table.add(measure(word, options, kg, rate, normals));
+    table.add(measure(word, options, kg, rate));
   return table;
 }
 

@@ -34,7 +34,6 @@ struct Arguments {
   double one_kg = 0.1;
   double max_error = 0.002;
   std::string fps;
-  bool normals = false;
   int runs = 5;
   uint32_t vertices = 210000, frame_count = 100, shapes = 30;
   uint32_t live_frames = 30;
@@ -107,8 +106,8 @@ constexpr tools::Bounds<double> kPositive = {std::numeric_limits<double>::min()}
 
 void add_rate(Bench& bench) {
   Arguments& a = bench.arguments;
-  tools::Options& options = add(
-      bench, "rate", "Bytes at a KG error, against Draco and frame deltas", [](Arguments& args) {
+  tools::Options& options =
+      add(bench, "rate", "Bytes at a KG error, where they go, and raw caches", [](Arguments& args) {
         args.bench.clips = clip_words(args.inputs, args.clips);
         return std::vector{run_rate(args.bench, args.kg)};
       });
@@ -119,21 +118,19 @@ void add_rate(Bench& bench) {
 void add_gltf(Bench& bench) {
   Arguments& a = bench.arguments;
   tools::Options& options = add(
-      bench, "gltf", "Bytes of glTF files' clips, against gltfpack",
+      bench, "gltf", "Bytes of glTF files' clips, against those of the files",
       [](Arguments& args) {
         args.bench.clips = args.clips;
         args.bench.clips.insert(args.bench.clips.begin(), args.inputs.begin(), args.inputs.end());
         std::optional<FrameRate> rate;
         if (!args.fps.empty())
           rate = tools::parse_frame_rate(args.fps);
-        return std::vector{run_gltf(args.bench, args.one_kg, rate, args.normals)};
+        return std::vector{run_gltf(args.bench, args.one_kg, rate)};
       },
       "INPUT and CLIP are .gltf and .glb files, FILE@ANIMATION for other than the first animation\n"
       "that moves something.");
   options.number("--kg", a.one_kg, "PCT", kPositive, "KG error in per cent (default 0.1)");
   options.option("--fps", a.fps, "N[/D]", "Frames per second (default: the rate of the keys)");
-  options.flag("--normals", a.normals,
-               "With normals of every frame, and texture coordinates on our side");
 }
 
 void add_near(Bench& bench) {

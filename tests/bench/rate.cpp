@@ -5,7 +5,6 @@
 #include "tests/bench/bench_encode.h"
 #include "tests/bench/benches.h"
 #include "tools/peers/cubic_grid.h"
-#include "tools/peers/draco_frames.h"
 #include "tools/peers/frame_deltas.h"
 #include "tools/peers/raw_cache.h"
 #include "tools/words/names.h"
@@ -69,22 +68,12 @@ Table run_rate(const BenchOptions& options, const std::vector<double>& targets) 
                                    {"bpfv", "bpfv", "{:.3f}"},
                                    {"basis", "kind", ""},
                                    {"components", "k", ""}},
-                                  {{"draco_bits", "Draco bits", ""},
-                                   {"draco_kg", "KG", "{:.4f}"},
-                                   {"draco_bytes", "bytes", ""},
-                                   {"draco_ratio", "ratio", "{:.1f}"},
-                                   {"grid_kg", "grid KG", "{:.4f}"},
-                                   {"draco_grid_bytes", "Draco bytes", ""},
-                                   {"draco_grid_ratio", "ratio", "{:.1f}"},
-                                   {"deltas_bytes", "deltas bytes", ""},
-                                   {"deltas_ratio", "ratio", "{:.1f}"},
-                                   {"zstd_bytes", "float32 zstd", ""},
+                                  {{"zstd_bytes", "float32 zstd", ""},
                                    {"zstd_ratio", "ratio", "{:.0f}"},
                                    {"xz_bytes", "float32 xz", ""},
                                    {"xz_ratio", "ratio", "{:.0f}"}}));
   for (const std::string& clip : options.clips) {
     MeshSequence sequence = load_clip(clip);
-    std::vector<uint32_t> triangles = fan_triangles(sequence.polygons);
     const RawCacheSize cache = raw_cache_size(sequence);
     for (double kg : targets) {
       Target target{ErrorMetric::kKg, kg, false};
@@ -93,27 +82,10 @@ Table run_rate(const BenchOptions& options, const std::vector<double>& targets) 
       uint64_t bytes = timed.result.file.size();
       ordered_json row = describe(clip, sequence, timed);
       row["asked_kg"] = kg;
-      GriddedClip grid = on_grid_at_kg(sequence, kg);
-      FrameDeltaSize deltas = frame_delta_size(grid, sequence.vertex_count, triangles);
-      row["grid_kg"] = grid.error.kg;
-      row["grid_step"] = grid.step;
-      row["deltas_bytes"] = deltas.bytes;
-      row["deltas_variant"] = deltas.variant;
-      row["deltas_ratio"] = ratio(deltas.bytes, bytes);
       row["zstd_bytes"] = cache.zstd;
       row["zstd_ratio"] = ratio(cache.zstd, bytes);
       row["xz_bytes"] = cache.xz;
       row["xz_ratio"] = ratio(cache.xz, bytes);
-      if (!triangles.empty()) {
-        DracoFrames draco = draco_at_kg(sequence, triangles, kg);
-        DracoFrames draco_grid = draco_on_grid(sequence, triangles, grid);
-        row["draco_bits"] = draco.bits;
-        row["draco_kg"] = draco.kg;
-        row["draco_bytes"] = draco.bytes();
-        row["draco_ratio"] = ratio(draco.bytes(), bytes);
-        row["draco_grid_bytes"] = draco_grid.bytes();
-        row["draco_grid_ratio"] = ratio(draco_grid.bytes(), bytes);
-      }
       table.add(std::move(row));
     }
   }

@@ -95,7 +95,7 @@ ROOMS = {
     "tools/io/assimp": ["tools/io/base", "tools/io/files", "tools/io/guard", "tools/io/gltf"],
     "tools/io": ["tools/io/base", "tools/io/files", "tools/io/formats", "tools/io/gltf", "tools/io/alembic",
                  "tools/io/assimp", "tools/io/fbx"],
-    "tools/peers": ["tools/io/files", "tools/io/gltf"],
+    "tools/peers": [],
     "tools/render": ["tools/io/base", "tools/io/files"],
     "tools/textures": ["tools/words", "tools/io/gltf"],
     "tools/inputs": ["tools/words", "tools/options", "tools/io", "tools/io/base", "tools/io/files"],

@@ -42,9 +42,8 @@ with the same --effort: sizes, where bytes and errors are, pictures, and the cli
 --full measures more, for some minutes: sizes at several errors, also with key-frames alone and with
 other codecs, key-frames and shape spaces. The page needs
 nothing but a browser; --json prints its numbers: name, vertices, faces, frames, frame_rate,
-diagonal, rates (codec, bytes, bpfv, kg, max_error_percent, sted), missing (other codecs that are
-not installed), shown_kg, shown_bytes, shares, frame_errors (rmse, max_error), basis_errors (method,
-k, kg, rmse), shape_spaces (space, k, kg, numbers, bytes, residual_percent). With -o x.svg the
+diagonal, rates (codec, bytes, bpfv, kg, max_error_percent, sted), shown_kg, shown_bytes, shares,
+frame_errors (rmse, max_error), basis_errors (method, k, kg, rmse), shape_spaces (space, k, kg, numbers, bytes, residual_percent). With -o x.svg the
 curves of size against KG error alone.
 
 --massage-study measures instead what anicodec massage does to the clip: KG errors in K principal

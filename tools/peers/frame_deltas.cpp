@@ -59,7 +59,7 @@ void append_frames(const GriddedClip& clip, const Order& order, bool folded, Buf
   size_t count = order.vertices.size(), frame_width = 3 * count;
   std::vector<Value> before(frame_width, 0), deltas(kWidth * count, 0);
   Buffer buffer(meshopt_encodeVertexBufferBound(count, kWidth * sizeof(Value)));
-  constexpr int kLevelOfMeshopt = 2, kVersion = 0;  // that of EXT_meshopt_compression
+  constexpr int kLevelOfMeshopt = 3, kVersion = 1;  // the smallest; that of KHR_meshopt_compression
   for (size_t begin = 0; begin < clip.values.size(); begin += frame_width) {
     for (size_t i = 0; i < count; ++i) {
       for (size_t c = 0; c < 3; ++c) {

@@ -11,7 +11,6 @@
 #include "tools/inputs/clip_input.h"
 #include "tools/peers/cubic_grid.h"
 #include "tools/peers/draco_frames.h"
-#include "tools/peers/gltfpack.h"
 #include "tools/peers/raw_cache.h"
 #include "tools/render/shaded_view.h"
 #include "tools/render/viewer_page.h"
@@ -90,20 +89,12 @@ class ReportMaker {
           [=, this] { add_encoding("anicodec, key-frames", BasisChoice::kKeyframes, kg); });
     for (double kg : kPeerTargets)
       stages.push_back([=, this] { add_peers(kg); });
-    if (peers::gltfpack_version().empty()) {
-      report_.missing.push_back("gltfpack");
-    } else {
-      stages.push_back([this] {  // one after the other: each holds the clip several times
-        for (double kg : kPeerTargets)
-          add_gltfpack(kg);
-      });
-    }
     stages.push_back([this] { add_raw_cache(); });
   }
 
   void begin(const char* stage) {
     constexpr double kAll =
-        std::size(kLinearTargets) + std::size(kKeyframeTargets) + 2 * std::size(kPeerTargets) + 3;
+        std::size(kLinearTargets) + std::size(kKeyframeTargets) + std::size(kPeerTargets) + 3;
     const double stages = options_.full ? kAll : double{std::size(kQuickTargets)};
     const std::lock_guard<std::mutex> lock(mutex_);
     if (options_.progress)
@@ -227,19 +218,6 @@ class ReportMaker {
 #endif
   }
 
-  void add_gltfpack(double kg) {
-    begin("other codecs");
-    peers::GltfpackClip packed;
-    try {
-      packed = peers::gltfpack_at_kg(sequence_, kg);
-    } catch (const Error& e) {
-      if (e.kind() == ErrorKind::kInternal)
-        throw;
-      return;  // not this clip, or not so fine
-    }
-    add(point("gltfpack, morph targets", packed.bytes, compared(frames_of(packed.decoded))));
-  }
-
   void add_raw_cache() {
     begin("other codecs");
     const peers::RawCacheSize size = peers::raw_cache_size(sequence_);
@@ -339,7 +317,6 @@ nlohmann::ordered_json report_json(const Report& report) {
                              {"kg", p.kg},
                              {"max_error_percent", p.max_error_percent},
                              {"sted", p.sted}});
-  json["missing"] = report.missing;
   json["shown_kg"] = report.shown_kg;
   json["shown_bytes"] = report.shown_bytes;
   json["shares"] = nlohmann::ordered_json::object();

@@ -62,10 +62,7 @@ std::string rate_table(const Report& report) {
         "<tr><td>{}</td><td>{}</td><td>{:.3f}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.3g}</td></"
         "tr>",
         html_text(p.codec), grouped(p.bytes), p.bpfv, p.kg, p.max_error_percent, p.sted);
-  out += "</table></div>";
-  for (const std::string& command : report.missing)
-    out += fmt::format("<p>Left out, because it is not installed: {}.</p>", html_text(command));
-  return out;
+  return out + "</table></div>";
 }
 
 std::string share_bar(const Report& report) {
@@ -191,9 +188,7 @@ std::string report_page(const Report& report) {
   out +=
       "<h2>Size against error</h2><p>Whole files, of positions and faces. Lower and further left "
       "is better. Other codecs "
-      "are dashed: they store the positions of a cubic grid whose step gives the error, gltfpack "
-      "those "
-      "of the fewest bits that keep to it.</p>"
+      "are dashed: they store the positions of a cubic grid whose step gives the error.</p>"
       "<div class=\"charts\">";
   out += svg_of(kg_chart(report));
   out += svg_of(rate_chart(report, "largest error, % of the diagonal",

@@ -54,11 +54,10 @@ struct Report {
   double diagonal = 0;
   FrameRate rate;
   std::vector<RatePoint> rates;
-  std::vector<std::string> missing;  ///< commands of other codecs that are not installed
-  double shown_kg = 0;               ///< KG error asked for in all that follows
-  uint64_t shown_bytes = 0;          ///< of that file
-  std::vector<ByteShare> shares;     ///< where they went
-  Comparison shown;                  ///< that file against the clip, frame by frame
+  double shown_kg = 0;            ///< KG error asked for in all that follows
+  uint64_t shown_bytes = 0;       ///< of that file
+  std::vector<ByteShare> shares;  ///< where they went
+  Comparison shown;               ///< that file against the clip, frame by frame
   std::vector<BasisError> basis_errors;
   std::vector<ShapeSpaceError> shape_spaces;
   std::string player;                    ///< a page that plays it, where the viewer is installed
