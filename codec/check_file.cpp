@@ -4,11 +4,14 @@
 
 #include "codec/parallel/task_threads.h"
 #include "codec/sequence/error.h"
-#include "sdk/clip/clip.h"
+#include "sdk/api/objects.h"
+
+#include <anicodec/anicodec.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <new>
 #include <numeric>
 #include <span>
 #include <string>
@@ -16,29 +19,78 @@
 namespace anicodec {
 namespace {
 
-Clip opened(const Bytes& file, KeptLearning* learning) {
-  Clip clip;
-  OpenOptions options;
-  options.threads = task_threads();
-  options.learning = learning;
-  if (Failure failure = clip.open(file, options); !failure.ok())
-    throw Error(ErrorKind::kInternal,
-                std::string("the encoded file cannot be opened: ") + status_string(failure.status));
-  if (Failure failure = clip.check_hashes(); !failure.ok())
-    throw Error(ErrorKind::kInternal, "the encoded file decodes to other integers");
-  return clip;
-}
+/// The file as programs play it. It opens by what a live stream has learnt, too.
+class PlayedFile {
+ public:
+  PlayedFile(const Bytes& file, KeptLearning* learning) {
+    anic_options options = ANIC_INIT(anic_options);
+    options.max_bytes = HostLimits().resident_bytes;
+    const HostThreads threads = task_threads();
+    options.threads = {threads.host, threads.run};
+    if (const Failure failure = open_asset(file, options, learning, &asset_); !failure.ok())
+      throw Error(ErrorKind::kInternal, std::string("the encoded file cannot be opened: ") +
+                                            status_string(failure.status));
+    if (anic_create_context(asset_, nullptr, &context_) != ANIC_OK) {
+      anic_close_asset(asset_);
+      throw std::bad_alloc();
+    }
+    anic_get_asset_info(asset_, &info_);
+  }
+
+  PlayedFile(const PlayedFile&) = delete;
+  PlayedFile& operator=(const PlayedFile&) = delete;
+
+  ~PlayedFile() {
+    anic_destroy_context(context_);
+    anic_close_asset(asset_);
+  }
+
+  const anic_asset* asset() const { return asset_; }
+
+  const anic_asset_info& info() const { return info_; }
+
+  void seek(uint32_t frame) { check(anic_seek_frame(context_, frame)); }
+
+  /// Positions of a mesh in the frame sought.
+  void positions(uint32_t mesh, std::vector<float>* out) const {
+    anic_output output = ANIC_INIT(anic_output);
+    output.data = out->data();
+    output.size = out->size() * sizeof(float);
+    check(anic_write_positions(context_, mesh, ANIC_WHEN_CURRENT, 0,
+                               static_cast<uint32_t>(out->size() / 3), &output));
+  }
+
+  /// Values of an attribute of the first mesh in the frame sought.
+  void attribute(uint32_t number, uint32_t elements, std::vector<float>* out) const {
+    anic_value_output output = ANIC_INIT(anic_value_output);
+    output.data = out->data();
+    output.size = out->size() * sizeof(float);
+    check(anic_write_attribute(context_, 0, number, ANIC_WHEN_CURRENT, 0, elements, &output));
+  }
+
+ private:
+  static void check(anic_status status) {
+    if (status != ANIC_OK)
+      throw Error(ErrorKind::kInternal, std::string("the encoded file cannot be played: ") +
+                                            anic_get_status_text(status));
+  }
+
+  anic_asset* asset_ = nullptr;
+  anic_context* context_ = nullptr;
+  anic_asset_info info_ = ANIC_INIT(anic_asset_info);
+};
 
 /// For each vertex of the source, the played vertex that shows it.
-std::vector<uint32_t> played_vertices(const Clip& clip, const MeshLayout& layout) {
+std::vector<uint32_t> played_vertices(const PlayedFile& file, const MeshLayout& layout) {
   std::vector<uint32_t> played(layout.source_coded.size());
-  if (clip.record().order != OrderMode::kFree) {
+  if (file.info().order != ANIC_ORDER_FREE) {
     std::iota(played.begin(), played.end(), 0U);
     return played;
   }
-  const Vector<uint32_t>& coded = clip.meshes()[0].topology.vertex_coded;
+  const uint32_t* coded = nullptr;
+  anic_get_coded_vertices(file.asset(), 0, &coded);
   std::vector<uint32_t> played_of_coded(layout.sizes.coded_vertices);
-  for (uint32_t v = 0; v < coded.size(); ++v)
+  for (uint32_t v = 0; v < played.size(); ++v)
     played_of_coded[coded[v]] = v;
   for (uint32_t v = 0; v < played.size(); ++v)
     played[v] = played_of_coded[layout.source_coded[v]];
@@ -53,8 +105,8 @@ void copy_rows(const float* from, const std::vector<uint32_t>& rows, std::vector
 }
 
 /// In the source's vertex order whatever the file's.
-Comparison compare_positions(const Clip& clip, const EncoderInput& input, const FrameRun& run) {
-  const std::vector<uint32_t> played_of = played_vertices(clip, input.layout);
+Comparison compare_positions(PlayedFile* file, const EncoderInput& input, const FrameRun& run) {
+  const std::vector<uint32_t> played_of = played_vertices(*file, input.layout);
   const uint32_t vertices = input.sequence.vertex_count;
   std::vector<float> original, decoded, played(size_t{3} * vertices);
   CompareOptions options;
@@ -66,7 +118,8 @@ Comparison compare_positions(const Clip& clip, const EncoderInput& input, const 
         return original;
       },
       [&](uint32_t f) -> std::span<const float> {
-        clip.positions(0, run.first + f, played.data());
+        file->seek(run.first + f);
+        file->positions(0, &played);
         copy_rows(played.data(), played_of, &decoded);
         return decoded;
       },
@@ -74,12 +127,13 @@ Comparison compare_positions(const Clip& clip, const EncoderInput& input, const 
 }
 
 /// Whether a clip without error has the bits of the source, too: zeros with their signs.
-bool has_all_bits(const Clip& clip, const EncoderInput& input, const FrameRun& run) {
-  const std::vector<uint32_t> played_of = played_vertices(clip, input.layout);
+bool has_all_bits(PlayedFile* file, const EncoderInput& input, const FrameRun& run) {
+  const std::vector<uint32_t> played_of = played_vertices(*file, input.layout);
   std::vector<float> original, decoded, played(size_t{3} * input.sequence.vertex_count);
   for (uint32_t f = run.first; f < run.first + run.count; ++f) {
     copy_rows(input.shown().frame(f), input.layout.source_coded, &original);
-    clip.positions(0, f, played.data());
+    file->seek(f);
+    file->positions(0, &played);
     copy_rows(played.data(), played_of, &decoded);
     if (std::memcmp(original.data(), decoded.data(), original.size() * sizeof(float)) != 0)
       return false;
@@ -87,32 +141,43 @@ bool has_all_bits(const Clip& clip, const EncoderInput& input, const FrameRun& r
   return true;
 }
 
-/// Measures one attribute that changes over time in some frames.
-AttributeError measure(const Clip& clip, const EncoderInput& input, const FrameRun& run,
-                       const StoredAttribute& stored, uint32_t first_frame) {
-  const Attribute& attribute = input.sequence.attributes[stored.source];
-  AttributeError error;
-  error.attribute = static_cast<uint16_t>(stored.number);
-  const OrderMode order = clip.record().order;
-  const bool canonical =
-      order == OrderMode::kFree || (order == OrderMode::kVertices && !attribute.per_vertex());
-  const size_t elements = stored.rows.size(), n = attribute.components;
-  std::vector<float> played(elements * n);
-  double squared = 0;
-  for (uint32_t f = run.first; f < run.first + run.count; ++f) {
-    clip.attribute_values(0, stored.number, f, played.data());
-    const float* source = attribute.values.data() + size_t{f + first_frame} * elements * n;
-    for (size_t e = 0; e < elements; ++e) {
-      const float* values = source + (canonical ? stored.rows[e] : e) * n;
-      for (size_t c = 0; c < n; ++c) {
-        const double d = static_cast<double>(values[c]) - static_cast<double>(played[e * n + c]);
-        squared += d * d;
-        error.max_error = std::max(error.max_error, std::abs(d));
+/// Measures attributes that change over time in some frames.
+std::vector<AttributeError> measure(PlayedFile* file, const EncoderInput& input,
+                                    const FrameRun& run,
+                                    const std::vector<const StoredAttribute*>& moving,
+                                    uint32_t first_frame) {
+  std::vector<AttributeError> errors(moving.size());
+  std::vector<double> squared(moving.size());
+  std::vector<float> played;
+  const anic_order order = file->info().order;
+  for (uint32_t f = run.first; f < run.first + run.count && !moving.empty(); ++f) {
+    file->seek(f);
+    for (size_t a = 0; a < moving.size(); ++a) {
+      const StoredAttribute& stored = *moving[a];
+      const Attribute& attribute = input.sequence.attributes[stored.source];
+      const bool canonical =
+          order == ANIC_ORDER_FREE || (order == ANIC_ORDER_VERTICES && !attribute.per_vertex());
+      const size_t elements = stored.rows.size(), n = attribute.components;
+      played.resize(elements * n);
+      file->attribute(stored.number, static_cast<uint32_t>(elements), &played);
+      const float* source = attribute.values.data() + size_t{f + first_frame} * elements * n;
+      for (size_t e = 0; e < elements; ++e) {
+        const float* values = source + (canonical ? stored.rows[e] : e) * n;
+        for (size_t c = 0; c < n; ++c) {
+          const double d = static_cast<double>(values[c]) - static_cast<double>(played[e * n + c]);
+          squared[a] += d * d;
+          errors[a].max_error = std::max(errors[a].max_error, std::abs(d));
+        }
       }
     }
   }
-  error.rmse = std::sqrt(squared / static_cast<double>(n * elements) / run.count);
-  return error;
+  for (size_t a = 0; a < moving.size(); ++a) {
+    const size_t values =
+        moving[a]->rows.size() * input.sequence.attributes[moving[a]->source].components;
+    errors[a].attribute = static_cast<uint16_t>(moving[a]->number);
+    errors[a].rmse = std::sqrt(squared[a] / static_cast<double>(values) / run.count);
+  }
+  return errors;
 }
 
 /// A box around points, moved outwards by what decoders may differ by.
@@ -129,16 +194,18 @@ Box box_of(const std::vector<float>& points) {
 }
 
 /// Boxes of the frames of a segment as it plays, with a margin for decoders that round in another way.
-BoundsRecord bounds_of(const Clip& clip, uint32_t number) {
+BoundsRecord bounds_of(PlayedFile* file, uint32_t number) {
   BoundsRecord bounds;
-  const Limits::Segment& segment = clip.limits().segments[number];
-  if (segment.attribute != kPositions)
+  anic_basis basis = ANIC_INIT(anic_basis);
+  anic_get_basis(file->asset(), number, &basis);
+  if (basis.target != ANIC_TARGET_POSITIONS)
     return bounds;
   constexpr float kMargin = 1.0F / (1 << 14);
-  std::vector<float> played(size_t{3} * clip.limits().meshes[segment.mesh].source_vertices);
+  std::vector<float> played(size_t{3} * basis.vertex_count);
   Vector<Box> boxes;
-  for (uint32_t f = segment.first_frame; f < segment.first_frame + segment.frames; ++f) {
-    clip.positions(segment.mesh, f, played.data());
+  for (uint32_t f = basis.first_frame; f < basis.first_frame + basis.frame_count; ++f) {
+    file->seek(f);
+    file->positions(basis.mesh, &played);
     Box box = box_of(played);
     float size = 0;
     for (size_t c = 0; c < 3; ++c)
@@ -156,32 +223,37 @@ BoundsRecord bounds_of(const Clip& clip, uint32_t number) {
 
 }  // namespace
 
-CheckedFile check_file(const Bytes& file, const EncoderInput& input,
+CheckedFile check_file(const Bytes& bytes, const EncoderInput& input,
                        const std::vector<StoredAttribute>& stored, uint32_t first_frame,
-                       KeptLearning* learning, std::vector<AttributeResult>* attributes) {
-  const Clip clip = opened(file, learning);
+                       bool is_lossless, KeptLearning* learning,
+                       std::vector<AttributeResult>* attributes) {
+  PlayedFile file(bytes, learning);
+  if (anic_verify_asset(file.asset()) != ANIC_OK)
+    throw Error(ErrorKind::kInternal, "the encoded file decodes to other integers");
+  std::vector<const StoredAttribute*> moving;
+  for (const AttributeResult& result : *attributes)
+    moving.push_back(&*std::ranges::find(stored, result.number, &StoredAttribute::number));
   CheckedFile checked;
   std::vector<MeasuredClip>& clips = checked.clips;
   for (const InputClip& source : input.clips) {
     MeasuredClip& measured = clips.emplace_back();
-    measured.positions = compare_positions(clip, input, source.frames);
-    if (clip.limits().segments[clip.by_frame()[0]].exact &&
-        !has_all_bits(clip, input, source.frames))
+    measured.positions = compare_positions(&file, input, source.frames);
+    if (is_lossless && !has_all_bits(&file, input, source.frames))
       throw Error(ErrorKind::kInternal, "the encoded file does not have the source's positions");
-    for (AttributeResult& result : *attributes) {
-      const auto of = std::ranges::find(stored, result.number, &StoredAttribute::number);
-      const AttributeError error = measure(clip, input, source.frames, *of, first_frame);
-      if (error.max_error > result.asked)
+    const double share = static_cast<double>(source.frames.count) / file.info().frame_count;
+    const std::vector<AttributeError> errors =
+        measure(&file, input, source.frames, moving, first_frame);
+    for (size_t a = 0; a < errors.size(); ++a) {
+      AttributeResult& result = (*attributes)[a];
+      if (errors[a].max_error > result.asked)
         throw Error(ErrorKind::kInternal, result.name + ": the error is above what was asked for");
-      result.max_error = std::max(result.max_error, error.max_error);
-      result.rmse = std::hypot(
-          result.rmse,
-          error.rmse * std::sqrt(static_cast<double>(source.frames.count) / clip.frame_count()));
-      measured.attributes.push_back(error);
+      result.max_error = std::max(result.max_error, errors[a].max_error);
+      result.rmse = std::hypot(result.rmse, errors[a].rmse * std::sqrt(share));
+      measured.attributes.push_back(errors[a]);
     }
   }
-  for (uint32_t s = 0; s < clip.segments().size(); ++s)
-    checked.bounds.push_back(bounds_of(clip, s));
+  for (uint32_t s = 0; s < file.info().segment_count; ++s)
+    checked.bounds.push_back(bounds_of(&file, s));
   return checked;
 }
 

@@ -26,14 +26,15 @@ struct CheckedFile {
   std::vector<BoundsRecord> bounds;  ///< of each segment; without boxes those of attributes
 };
 
-/// Opens a file as a decoder does, plays it and compares each clip with the source: positions, and
-/// the attributes that change over time, whose errors over all clips are filled in. `first_frame`:
-/// the frame of the source that the file begins with; `learning`: OpenOptions::learning. Throws Error(kInternal) for a file that cannot be opened, that
-/// decodes to other integers, or with an attribute further off than was asked for. Cost: that of
-/// playing all frames.
-CheckedFile check_file(const Bytes& file, const EncoderInput& input,
+/// Opens a file and plays it through the interface that programs use, and compares each clip with the source:
+/// positions, and the attributes that change over time, whose errors over all clips are filled in. `first_frame`:
+/// the frame of the source that the file begins with; `is_lossless`: the file must have the source's bits;
+/// `learning`: OpenOptions::learning. Throws Error(kInternal) for a file that cannot be opened, that decodes to other
+/// integers or bits, or with an attribute further off than was asked for. Cost: that of playing all frames.
+CheckedFile check_file(const Bytes& bytes, const EncoderInput& input,
                        const std::vector<StoredAttribute>& stored, uint32_t first_frame,
-                       KeptLearning* learning, std::vector<AttributeResult>* attributes);
+                       bool is_lossless, KeptLearning* learning,
+                       std::vector<AttributeResult>* attributes);
 
 }  // namespace anicodec
 

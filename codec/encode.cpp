@@ -230,8 +230,9 @@ EncodeResult encode_within(MeshSequence sequence, const EncodeOptions& options,
 
   const Bytes file = coded.file(record, input.layout);
   std::vector<AttributeResult>& attributes = coded.attributes.results;
-  const CheckedFile checked = check_file(
-      file, input, stored, options.part ? options.part->first : 0, options.learning, &attributes);
+  const CheckedFile checked =
+      check_file(file, input, stored, options.part ? options.part->first : 0, lossless,
+                 options.learning, &attributes);
   const std::vector<MeasuredClip>& measured = checked.clips;
   EncodeResult result = result_of(measured, input);
   for (size_t c = 0; c < measured.size(); ++c) {

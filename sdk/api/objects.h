@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// The objects behind the handles of the C interface, and helpers of its functions. Internal to sdk/.
+// The objects behind the handles of the C interface, and helpers of its functions. Internal to sdk/,
+// but for the encoder, which opens what it has made and goes on learning.
 #ifndef ANICODEC_SDK_API_OBJECTS_H_
 #define ANICODEC_SDK_API_OBJECTS_H_
 
@@ -178,8 +179,9 @@ anic_status find_attribute(const anic_context* context, uint32_t mesh, uint32_t 
 Failure open_asset(const ContainerReader& file, size_t size, const anic_options& options,
                    KeptMeshes* kept, KeptLearning* learning, anic_asset** out);
 
-/// The body of anic_open_asset(). Throws std::bad_alloc.
-Failure open_asset(ByteView bytes, const anic_options& options, anic_asset** out);
+/// The body of anic_open_asset(), with OpenOptions::learning. Throws std::bad_alloc.
+Failure open_asset(ByteView bytes, const anic_options& options, KeptLearning* learning,
+                   anic_asset** out);
 
 }  // namespace anicodec
 

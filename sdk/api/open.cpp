@@ -254,13 +254,14 @@ Failure open_asset(const ContainerReader& container, size_t size, const anic_opt
   return {};
 }
 
-Failure open_asset(ByteView bytes, const anic_options& options, anic_asset** out) {
+Failure open_asset(ByteView bytes, const anic_options& options, KeptLearning* learning,
+                   anic_asset** out) {
   Memory memory = memory_of(&options.allocator);
   const MemoryScope scope(&memory);
   ContainerReader container;
   if (Failure failure = container.open(bytes); !failure.ok())
     return failure;
-  return open_asset(container, bytes.size, options, nullptr, nullptr, out);
+  return open_asset(container, bytes.size, options, nullptr, learning, out);
 }
 
 }  // namespace anicodec
@@ -297,10 +298,11 @@ anic_status anic_open_asset(const void* file, size_t size, const anic_options* o
   anic_options wanted;
   if (!out || (!file && size > 0) || !take_options(options, &wanted))
     return report(kBadArgument, failure);
-  return report(guarded([&] {
-                  return open_asset({static_cast<const uint8_t*>(file), size}, wanted, out);
-                }),
-                failure);
+  return report(
+      guarded([&] {
+        return open_asset({static_cast<const uint8_t*>(file), size}, wanted, nullptr, out);
+      }),
+      failure);
 }
 
 anic_status anic_share_asset(const anic_asset* asset, const anic_options* options,

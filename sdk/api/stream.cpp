@@ -276,7 +276,7 @@ anic_status anic_open_asset_from_reader(const anic_reader* reader, uint64_t file
     Bytes bytes;
     if (Failure f = read_file(*reader, file_size, wanted, &bytes); !f.ok())
       return f;
-    return open_asset(bytes, wanted, out);
+    return open_asset(bytes, wanted, nullptr, out);
   };
   return report(guarded(open), failure);
 }
