@@ -471,29 +471,4 @@ std::vector<StoredAttribute> encode_attributes(const MeshSequence& sequence,
   return std::move(writer).stored();
 }
 
-void restore_attributes(const Vector<MeshAttribute>& decoded, MeshSequence* sequence) {
-  for (const MeshAttribute& a : decoded) {
-    const AttributeHeader& header = a.header;
-    if (header.has_labels()) {
-      PolygonLabels& labels =
-          header.kind == AttributeKind::kMaterial ? sequence->materials : sequence->parts;
-      labels = {};
-      for (const String& name : header.labels)
-        labels.names.emplace_back(name.begin(), name.end());
-      labels.looks.assign(header.looks.begin(), header.looks.end());
-      for (uint32_t label : a.labels)
-        labels.of_polygon.push_back(label == 0 ? kNoLabel : label - 1);
-    } else if (header.components() == 0) {
-      sequence->shared_normals.assign(a.labels.begin(), a.labels.end());
-    } else {
-      Attribute& attribute = sequence->attributes.emplace_back();
-      attribute.kind = header.kind;
-      attribute.name.assign(header.name.begin(), header.name.end());
-      attribute.domain = header.domain;
-      attribute.components = header.components();
-      attribute.values.assign(a.values.begin(), a.values.end());
-    }
-  }
-}
-
 }  // namespace anicodec

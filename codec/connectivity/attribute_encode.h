@@ -5,7 +5,8 @@
 
 #include "codec/connectivity/mesh_layout.h"
 #include "codec/sequence/mesh_sequence.h"
-#include "sdk/clip/attributes.h"
+#include "format/attribute_record.h"
+#include "sdk/mesh/topology.h"
 
 #include <cstdint>
 #include <optional>
@@ -63,10 +64,6 @@ bool moves_as_stored(const Attribute& attribute, const StoredAttribute& stored);
 /// corners log corners).
 std::vector<StoredAttribute> encode_attributes(const MeshSequence& sequence,
                                                const AttributeOptions& options, MeshLayout* layout);
-
-/// Puts decoded attributes into a sequence of the same numbering: the first material and part
-/// attribute into fields of their own, which corners share normals into shared_normals.
-void restore_attributes(const Vector<MeshAttribute>& decoded, MeshSequence* sequence);
 
 }  // namespace anicodec
 

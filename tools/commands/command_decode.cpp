@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/sequence/error.h"
-#include "sdk/clip/clip.h"
 #include "tools/inputs/clip_input.h"
+#include "tools/inputs/played_clip.h"
 #include "tools/inputs/turned_axes.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/load_sequence.h"
@@ -90,12 +90,12 @@ struct DecodeRun {
 };
 
 /// Some frames of a clip, cut where what they show changes; those that show nothing are left out.
-std::vector<DecodeRun> runs_of(const Clip& clip, const FrameRange& range) {
+std::vector<DecodeRun> runs_of(const PlayedClip& clip, const FrameRange& range) {
   std::vector<DecodeRun> runs;
   for (uint32_t i = 0; i < range.size(); ++i) {
     const uint32_t f = range.first + i * range.step;
-    std::vector<uint32_t> shown = meshes_of(clip);
-    std::erase_if(shown, [&](uint32_t m) { return !clip.segment_at(m, f); });
+    std::vector<uint32_t> shown = clip.meshes();
+    std::erase_if(shown, [&](uint32_t m) { return !clip.shows(m, f); });
     if (runs.empty() || runs.back().meshes != shown)
       runs.push_back({{f, f + 1, range.step}, std::move(shown)});
     runs.back().frames.end = f + 1;
@@ -105,10 +105,10 @@ std::vector<DecodeRun> runs_of(const Clip& clip, const FrameRange& range) {
 }
 
 /// The frames of a range that show a mesh, counted in the range.
-std::vector<FrameRun> present_in(const Clip& clip, uint32_t mesh, const FrameRange& range) {
+std::vector<FrameRun> present_in(const PlayedClip& clip, uint32_t mesh, const FrameRange& range) {
   std::vector<FrameRun> runs;
   for (uint32_t i = 0; i < range.size(); ++i) {
-    if (!clip.segment_at(mesh, range.first + i * range.step))
+    if (!clip.shows(mesh, range.first + i * range.step))
       continue;
     if (runs.empty() || runs.back().first + runs.back().count != i)
       runs.push_back({i, 0});
@@ -132,22 +132,22 @@ std::string output_in(const std::string& folder, const std::string& input,
 }
 
 /// Writes each mesh of a clip as it is there.
-Written write_archive(const DecodePaths& paths, const Clip& clip, const FrameRange& range,
+Written write_archive(const DecodePaths& paths, const PlayedClip& clip, const FrameRange& range,
                       const WriteOptions& options) {
-  MeshSequence timing = describe_clip(clip, meshes_of(clip));
+  MeshSequence timing = clip.describe(clip.meshes());
   if (range.size() < clip.frame_count())
     take_frames(range, timing);
   std::vector<AlembicTrack> tracks;
-  for (uint32_t m : meshes_of(clip)) {
+  for (uint32_t m : clip.meshes()) {
     AlembicTrack track;
     track.present_in = present_in(clip, m, range);
     if (track.present_in.empty())
       continue;
-    track.mesh = describe_clip(clip, {m});
-    track.frames = [all = play(paths.input, clip, {m}), range](uint32_t f) {
+    track.mesh = clip.describe({m});
+    track.frames = [all = clip.play({m}), range](uint32_t f) {
       return all(range.first + f * range.step);
     };
-    if (auto attributes = play_attributes(clip, {m}))
+    if (auto attributes = clip.play_attributes({m}))
       track.attributes = [attributes, range](uint32_t f) {
         return attributes(range.first + f * range.step);
       };
@@ -160,16 +160,13 @@ Written write_archive(const DecodePaths& paths, const Clip& clip, const FrameRan
 void decode(const DecodeCommand& command, const DecodePaths& paths, const CommonOptions& common) {
   ProgressLine line(common.quiet);
   std::string bytes = read_bytes(paths.input);
-  OpenOptions open_options;
-  if (!command.quality.empty())
-    open_options.quality = parse_share(command.quality, "--quality");
-  Clip clip;
-  open_clip(paths.input, bytes, open_options, clip, Topologies::kAny);
-  if (Failure failure = clip.check_hashes(); open_options.quality == 1 && !failure.ok())
-    fail_clip(paths.input, failure);
+  const double quality = command.quality.empty() ? 1 : parse_share(command.quality, "--quality");
+  PlayedClip clip(paths.input, view_of(bytes), Topologies::kAny, quality);
+  if (quality == 1)
+    clip.verify();
   // A GLB has an animation for each.
   const bool together = kind_of(paths.output) == FileKind::kGlb && command.clip.empty();
-  choose_clip(paths.input, together ? "all" : command.clip, clip);
+  clip.choose(together ? "all" : command.clip);
   bytes = {};
 
   FrameRange range{0, clip.frame_count(), 1};
@@ -180,10 +177,10 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
   options.ascii = command.ascii;
   options.step = command.hold;
   options.normals = command.normals;
-  options.group_faces = clip.record().order != OrderMode::kAll;
+  options.group_faces = clip.order() != ANIC_ORDER_ALL;
   options.first_number = command.start;
   options.progress = line.callback();
-  const auto up = static_cast<UpAxis>(clip.record().up);
+  const UpAxis up = clip.up();
   const AxisTurn turn(up, up_of_output(paths.output, up, command.up));
   std::vector<GltfImage> images;
   if (!command.textures.empty()) {
@@ -199,25 +196,25 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
     return print_written(written, common);
   }
   const bool by_frame = is_written_by_frame(paths.output);
-  if (!by_frame && takes_turns(clip))
+  if (!by_frame && clip.takes_turns())
     throw Error(ErrorKind::kUsage,
                 fmt::format("{}: has one mesh, but {} has {} that take turns; write a file per "
                             "frame, as in frame_%04d.obj, or .abc",
                             paths.output, paths.input, clip.meshes().size()));
   std::vector<Written> written;
   for (const auto& [own, meshes] :
-       by_frame ? runs_of(clip, range) : std::vector<DecodeRun>{{range, meshes_of(clip)}}) {
-    MeshSequence description = describe_clip(clip, meshes);
+       by_frame ? runs_of(clip, range) : std::vector<DecodeRun>{{range, clip.meshes()}}) {
+    MeshSequence description = clip.describe(meshes);
     if (own.size() < clip.frame_count())
       take_frames(own, description);
-    else if (kind_of(paths.output) == FileKind::kGlb)
-      description.clips = clip_timings(clip);
+    else if (kind_of(paths.output) == FileKind::kGlb && clip.clips().size() > 1)
+      description.clips = clip.timings();
     options.first_number = command.start + (own.first - range.first) / range.step;
     turn.turn(description.attributes);
     description.origin = turn.turned(description.origin);
-    FrameSource all = turn.turned(play(paths.input, clip, meshes));
+    FrameSource all = turn.turned(clip.play(meshes));
     options.attributes = {};
-    if (auto attributes = play_attributes(clip, meshes))
+    if (auto attributes = clip.play_attributes(meshes))
       options.attributes = [attributes = turn.turned(attributes), frames = own](uint32_t f) {
         return attributes(frames.first + f * frames.step);
       };

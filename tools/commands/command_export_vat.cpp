@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/sequence/error.h"
-#include "sdk/clip/clip.h"
 #include "tools/inputs/clip_input.h"
+#include "tools/inputs/played_clip.h"
 #include "tools/inputs/turned_axes.h"
 #include "tools/io/files/atomic_file.h"
 #include "tools/io/gltf/glb_vertices.h"
@@ -70,23 +70,23 @@ struct ExportVatCommand {
 };
 
 /// Data that no texture and no mesh holds, and work that shaders will not do.
-std::vector<std::string> left_out(const Clip& clip, const MeshSequence& described) {
+std::vector<std::string> left_out(const PlayedClip& clip, const MeshSequence& described) {
   std::vector<std::string> lost;
   for (const Attribute& a : described.attributes) {
     if (!GlbVertices::is_written(a))
       lost.push_back(fmt::format("the {} attribute '{}'", name_of(a.kind), a.name));
   }
-  if (play_attributes(clip, meshes_of(clip)))
+  if (clip.play_attributes(clip.meshes()))
     lost.emplace_back("the motion of attributes, which stay as in the first frame");
   if (!described.parts.names.empty())
     lost.push_back(counted(described.parts.names.size(), "name of a part", "names of parts"));
-  const auto& clips = clip.clips();
-  if (std::ranges::any_of(clips, [](const ClipRecord& c) { return !c.times.empty(); }))
+  const std::vector<ClipTiming> clips = clip.timings();
+  if (std::ranges::any_of(clips, [](const ClipTiming& c) { return !c.times.empty(); }))
     lost.emplace_back("times of frames, which are taken as even");
-  if (std::ranges::any_of(clips, [](const ClipRecord& c) { return !c.events.empty(); }))
+  if (std::ranges::any_of(clips, [](const ClipTiming& c) { return !c.events.empty(); }))
     lost.emplace_back("named times");
-  for (uint32_t m : meshes_of(clip)) {
-    const std::vector<FrameRun> runs = frames_of_mesh(clip, m);
+  for (uint32_t m : clip.meshes()) {
+    const std::vector<FrameRun>& runs = clip.present_in(m);
     if (runs.size() == 1 && runs[0].count == clip.frame_count())
       continue;
     lost.emplace_back("the absence of meshes, which shrink to a point and stretch between frames");
@@ -99,18 +99,18 @@ std::vector<std::string> left_out(const Clip& clip, const MeshSequence& describe
 }
 
 /// The clips of a file, or the chosen frames of its one clip.
-std::vector<VatClip> played(const Clip& clip, const FrameRange& range) {
+std::vector<VatClip> played(const PlayedClip& clip, const FrameRange& range) {
   std::vector<VatClip> all;
   uint32_t first = 0;
-  for (const ClipRecord& record : clip.clips()) {
+  for (const anic_clip& of_file : clip.clips()) {
+    const uint32_t frames = of_file.frame_count;
     VatClip& one = all.emplace_back();
-    one.name.assign(record.name.begin(), record.name.end());
+    one.name = of_file.name;
     one.first_frame = first;
-    one.frame_count =
-        record.loop && record.closed && record.frames > 1 ? record.frames - 1 : record.frames;
-    one.rate = FrameRate{record.rate_numerator, record.rate_denominator}.value();
-    one.loop = record.loop;
-    first += record.frames;
+    one.frame_count = of_file.loop && of_file.closed && frames > 1 ? frames - 1 : frames;
+    one.rate = FrameRate{of_file.rate_numerator, of_file.rate_denominator}.value();
+    one.loop = of_file.loop != 0;
+    first += frames;
   }
   if (range.size() < clip.frame_count())
     all = {{all[0].name, 0, range.size(), all[0].rate / range.step}};
@@ -224,23 +224,20 @@ void print_result(const ExportVatCommand& command, const VatSource& source, cons
 void run(const ExportVatCommand& command, const CommonOptions& common) {
   ProgressLine line(common.quiet || common.json);
   std::string bytes = read_bytes(command.input);
-  Clip clip;
-  open_clip(command.input, bytes, {}, clip);
-  if (Failure failure = clip.check_hashes(); !failure.ok())
-    fail_clip(command.input, failure);
-  choose_clip(command.input, command.clip.empty() ? "all" : command.clip, clip);
+  PlayedClip clip(command.input, view_of(bytes));
+  clip.verify();
+  clip.choose(command.clip.empty() ? "all" : command.clip);
   bytes = {};
   FrameRange range{0, clip.frame_count(), 1};
   if (!command.frames.empty())
     range = parse_frames(command.frames, "--frames", clip.frame_count());
 
-  MeshSequence described = describe_clip(clip, meshes_of(clip));
+  MeshSequence described = clip.describe(clip.meshes());
   std::vector<std::string> lost = left_out(clip, described);
   const AxisTurn turn(described.up, described.up == UpAxis::kZ ? UpAxis::kY : described.up);
   const double metres = described.metres_per_unit;
   turn.turn(described.attributes);
-  const FrameSource all =
-      scaled(turn.turned(play(command.input, clip, meshes_of(clip))), metres > 0 ? metres : 1);
+  const FrameSource all = scaled(turn.turned(clip.play(clip.meshes())), metres > 0 ? metres : 1);
   const TexelMesh mesh(std::move(described));
   const VatSource source{
       command.input == "-" ? "clip" : std::filesystem::path(command.input).stem().string(), mesh,

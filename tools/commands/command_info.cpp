@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/file/live_stream.h"
+#include "codec/sequence/mesh_sequence.h"
 #include "format/container.h"
 #include "format/records.h"
 #include "sdk/clip/clip.h"
@@ -68,6 +69,19 @@ struct Contents {
   Clip clip;
   nlohmann::ordered_json metadata = nlohmann::ordered_json::object();
 };
+
+/// The runs of frames that show a mesh.
+std::vector<FrameRun> frames_of_mesh(const Clip& clip, uint32_t mesh) {
+  std::vector<FrameRun> runs;
+  for (uint32_t f = 0; f < clip.frame_count(); ++f) {
+    if (!clip.segment_at(mesh, f))
+      continue;
+    if (runs.empty() || runs.back().first + runs.back().count != f)
+      runs.push_back({f, 0});
+    ++runs.back().count;
+  }
+  return runs;
+}
 
 double percent(const ClipRecord& record) {
   return record.max_error == 0 ? 0 : 100 * record.max_error / record.diagonal;
@@ -576,7 +590,8 @@ void print_clip(const std::string& path, const std::string& bytes, const StreamC
                 const CommonOptions& common) {
   Contents contents;
   contents.bytes = bytes.size();
-  open_clip(path, bytes, {}, contents.clip, Topologies::kAny);
+  if (Failure failure = contents.clip.open(view_of(bytes)); !failure.ok())
+    fail_clip(path, failure);
   if (Failure failure = contents.container.open(view_of(bytes)); !failure.ok())
     fail_clip(path, failure);
   anic_options options = ANIC_INIT(anic_options);

@@ -49,14 +49,24 @@ size_t check_chunks(const std::string& path, const std::string& bytes) {
   return reader.chunks().size();
 }
 
+/// Plays a frame that shows a mesh.
+void play(const std::string& path, const Clip& clip, uint32_t mesh, uint32_t frame,
+          std::vector<float>* positions) {
+  positions->resize(size_t{3} * clip.vertex_count(mesh));
+  const Status status = clip.positions(mesh, frame, positions->data());
+  if (status != Status::kOk)
+    throw Error(error_kind(status),
+                fmt::format("{}: frame {}: {}", path, frame, status_string(status)));
+}
+
 void check_frames(const std::string& path, const Clip& clip, ProgressLine& line) {
+  std::vector<float> positions;
   for (uint32_t mesh = 0; mesh < clip.meshes().size(); ++mesh) {
-    FrameSource frames = play(path, clip, {mesh});
     for (uint32_t f = 0; f < clip.frame_count(); ++f) {
       if (!clip.segment_at(mesh, f))
         continue;
       line.show("playing", static_cast<double>(f) / clip.frame_count());
-      std::span<const float> positions = frames(f);
+      play(path, clip, mesh, f, &positions);
       for (size_t i = 0; i < positions.size(); ++i) {
         if (!std::isfinite(positions[i]))
           throw Error(ErrorKind::kCorrupt,
@@ -98,11 +108,11 @@ void check_unopened(const std::string& path, const std::string& bytes, const Cli
     BoundsRecord bounds;
     if (Status s = BoundsRecord::read(payload, segment.frames, &bounds); s != Status::kOk)
       fail_clip(path, failure_in(chunk, s, "the boxes are malformed"));
-    FrameSource frames = play(path, clip, {segment.mesh});
+    std::vector<float> positions;
     for (uint32_t f = 0; f < segment.frames; ++f) {
       anicodec::Box box = bounds.of_frame(f);
       widen(segment.components, &box);
-      const std::span<const float> positions = frames(segment.first_frame + f);
+      play(path, clip, segment.mesh, segment.first_frame + f, &positions);
       for (size_t i = 0; i < positions.size(); ++i) {
         if (positions[i] < box.low[i % 3] || positions[i] > box.high[i % 3])
           throw Error(ErrorKind::kCorrupt,
@@ -163,7 +173,8 @@ void verify(const std::string& path, const CommonOptions& common) {
   ProgressLine line(common.quiet);
   check_chunks(path, bytes);
   Clip clip;
-  open_clip(path, bytes, {}, clip, Topologies::kAny);
+  if (Failure failure = clip.open(view_of(bytes)); !failure.ok())
+    fail_clip(path, failure);
   const size_t chunks = check_clip(path, bytes, clip, line);
   line.clear();
   if (common.json)

@@ -38,10 +38,9 @@ ComparedClip::ComparedClip(const std::string& path, const std::string& mesh,
   if (is_anic(path)) {
     std::string bytes = read_bytes(path);
     bytes_ = bytes.size();
-    clip_ = std::make_unique<Clip>();
-    open_clip(path, bytes, {}, *clip_);
-    choose_clip(path, part.clip, *clip_);
-    sequence_ = describe_clip(*clip_, meshes_of(*clip_));
+    clip_ = std::make_unique<PlayedClip>(path, view_of(bytes));
+    clip_->choose(part.clip);
+    sequence_ = clip_->describe(clip_->meshes());
   } else {
     LoadOptions options;
     options.progress = progress;
@@ -60,11 +59,11 @@ ComparedClip::ComparedClip(const std::string& path, const std::string& mesh,
 }
 
 bool ComparedClip::has_free_order() const {
-  return clip_ && clip_->record().order == OrderMode::kFree;
+  return clip_ && clip_->order() == ANIC_ORDER_FREE;
 }
 
 FrameSource ComparedClip::frames() const {
-  FrameSource all = clip_ ? play(path_, *clip_, meshes_of(*clip_)) : frames_of(sequence_);
+  FrameSource all = clip_ ? clip_->play(clip_->meshes()) : frames_of(sequence_);
   return [all = std::move(all), range = range_](uint32_t f) {
     return all(range.first + f * range.step);
   };
@@ -73,7 +72,7 @@ FrameSource ComparedClip::frames() const {
 AttributeSource ComparedClip::attributes() const {
   AttributeSource all;
   if (clip_)
-    all = play_attributes(*clip_, meshes_of(*clip_));
+    all = clip_->play_attributes(clip_->meshes());
   if (!all)
     all = [this](uint32_t f) { return attributes_of_frame(sequence_.attributes, f); };
   return [all = std::move(all), range = range_](uint32_t f) {

@@ -6,8 +6,8 @@
 #include "codec/sequence/frame_source.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "codec/sequence/progress.h"
-#include "sdk/clip/clip.h"
 #include "tools/inputs/attribute_difference.h"
+#include "tools/inputs/played_clip.h"
 #include "tools/words/quantity.h"
 
 #include <cstdint>
@@ -53,7 +53,7 @@ class ComparedClip {
   std::string path_;
   uint64_t bytes_ = 0;
   FrameRange range_;
-  std::unique_ptr<Clip> clip_;
+  std::unique_ptr<PlayedClip> clip_;
   MeshSequence sequence_;
 };
 

@@ -34,7 +34,7 @@ struct StreamContents {
 };
 
 /// Opens the files of a live stream one after the other, and shows those that play, each as the file that it is with its meshes. Throws
-/// as read_live_stream(), and as open_clip() for a file that is damaged.
+/// as read_live_stream(), and as fail_clip() for a file that is damaged.
 StreamContents read_stream(const std::string& path, ByteView bytes,
                            const std::function<void(const StreamedFile& file,
                                                     const std::string& whole, Clip& clip)>& show);

@@ -7,8 +7,7 @@
 #include "codec/sequence/frame_source.h"
 #include "codec/surface/closest_point.h"
 #include "format/container.h"
-#include "sdk/clip/clip.h"
-#include "tools/inputs/clip_input.h"
+#include "tools/inputs/played_clip.h"
 #include "tools/peers/cubic_grid.h"
 #include "tools/peers/draco_frames.h"
 #include "tools/peers/raw_cache.h"
@@ -137,10 +136,8 @@ class ReportMaker {
         throw;
       return;  // this clip cannot be coded so
     }
-    Clip clip;
-    if (Failure failure = clip.open(result.file); !failure.ok())
-      fail_clip("the encoded clip", failure);
-    FrameSource frames = play("the encoded clip", clip, {0});
+    const PlayedClip clip("the encoded clip", result.file);
+    FrameSource frames = clip.play({0});
     const Comparison comparison = compared(frames);
     add(point(codec, result.file.size(), comparison));
     if (basis == BasisChoice::kAuto && kg == kShownKg) {
