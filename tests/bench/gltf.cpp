@@ -5,7 +5,6 @@
 #include "codec/sequence/error.h"
 #include "tests/bench/bench_encode.h"
 #include "tests/bench/benches.h"
-#include "tools/inputs/played_clip.h"
 #include "tools/io/files/byte_source.h"
 #include "tools/words/names.h"
 
