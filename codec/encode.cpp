@@ -143,6 +143,8 @@ EncodeResult encode_within(MeshSequence sequence, const EncodeOptions& options,
                 "lossless is what keeps the source's own positions: none that were moved before");
   if (target.metric == ErrorMetric::kNone && !options.keyframes)
     throw Error(ErrorKind::kUsage, "an error, a size, or a number of key-frames must be asked for");
+  if (options.keyframes && *options.keyframes > sequence.frame_count)
+    throw Error(ErrorKind::kUsage, "more key-frames are asked for than there are frames");
   const InterpolationChoice interpolation =
       options.interpolation.value_or(InterpolationChoice::kLinear);
   const bool searches_keyframes =
@@ -198,6 +200,8 @@ EncodeResult encode_within(MeshSequence sequence, const EncodeOptions& options,
     }
   }
   whole = {};
+  for (ClipGoal& goal : goals)
+    limit_goal(std::max(whole_diagonal, input.smallest_bound()), &goal);
   input.bound_clips(goals);
   const Target searched = largest_target(goals);
   std::vector<StoredAttribute> stored;

@@ -122,10 +122,13 @@ auto naming(const SceneMesh& mesh, const Work& work) {
   }
 }
 
-/// Encodes the runs of frames of a mesh, each to a file.
+/// Encodes the runs of frames of a mesh, each to a file. One that is there in fewer frames than there shall be key-frames
+/// has all of them.
 std::vector<EncodeResult> encode_runs(SceneMesh mesh, EncodeOptions options,
                                       const Progress& progress) {
   std::vector<EncodeResult> results;
+  if (options.keyframes)
+    options.keyframes = std::min(*options.keyframes, mesh.sequence.frame_count);
   if (mesh.present_in.size() == 1) {
     results.push_back(encode(std::move(mesh.sequence), options, progress));
     return results;

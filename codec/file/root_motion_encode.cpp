@@ -110,6 +110,11 @@ Motion motion_of(const MeshSequence& sequence, uint32_t first, const ClipTiming&
   return motion;
 }
 
+[[noreturn]] void refuse_large() {
+  throw Error(ErrorKind::kInput,
+              "the coordinates are too large to have the motion of the whole apart");
+}
+
 /// Undoes the motion of a frame, as the decoder will do it.
 void put_back(const RootState& state, const GroundAxes& axes, std::span<float> frame) {
   if (state.turn == 0 && state.move[0] == 0 && state.move[1] == 0)
@@ -120,6 +125,8 @@ void put_back(const RootState& state, const GroundAxes& axes, std::span<float> f
     const double b = static_cast<double>(frame[v + axes.b]) - state.pivot[1] - state.move[1];
     frame[v + axes.a] = static_cast<float>(state.pivot[0] + c * a + s * b);
     frame[v + axes.b] = static_cast<float>(state.pivot[1] - s * a + c * b);
+    if (!std::isfinite(frame[v + axes.a]) || !std::isfinite(frame[v + axes.b]))
+      refuse_large();
   }
 }
 
@@ -154,7 +161,10 @@ EncodedRoot take_root_motion(double diagonal, MeshSequence* sequence) {
   // The motion that the decoder will read is subtracted, not the original.
   RootMotion decoded;
   const Vector<uint8_t> all(clips.size(), 1);
-  if (decoded.open(result.chunk, limits, static_cast<uint8_t>(sequence->up), all) != Status::kOk)
+  const Status status = decoded.open(result.chunk, limits, static_cast<uint8_t>(sequence->up), all);
+  if (status == Status::kNonFinite)
+    refuse_large();
+  if (status != Status::kOk)
     throw Error(ErrorKind::kInternal, "the motion of the whole cannot be read again");
   uint32_t frame = 0;
   for (uint32_t c = 0; c < clips.size(); ++c) {

@@ -43,6 +43,28 @@ std::vector<ClipGoal> clip_goals(const Target& target, const std::optional<Targe
   return goals;
 }
 
+void limit_goal(double length, ClipGoal* goal) {
+  constexpr double kMost = 1e6;
+  double& value = goal->target.value;
+  switch (goal->target.metric) {
+    case ErrorMetric::kMaxError:
+    case ErrorMetric::kRmse:
+    case ErrorMetric::kDisplacement:
+      value = std::min(value, kMost * length);
+      break;
+    case ErrorMetric::kKg:
+    case ErrorMetric::kSted:
+      value = std::min(value, kMost);
+      break;
+    case ErrorMetric::kSize:
+    case ErrorMetric::kBpfv:
+    case ErrorMetric::kNone:
+      break;
+  }
+  if (goal->cap)
+    goal->cap = std::min(*goal->cap, kMost * length);
+}
+
 const Target& largest_target(const std::vector<ClipGoal>& goals) {
   return std::ranges::max_element(goals, {}, [](const ClipGoal& goal) { return goal.target.value; })
       ->target;

@@ -36,6 +36,10 @@ struct ClipGoal {
 std::vector<ClipGoal> clip_goals(const Target& target, const std::optional<Target>& cap,
                                  const std::vector<double>& diagonals, double whole);
 
+/// Makes a goal that every file keeps smaller, so that nothing leaves the range of numbers on the way: an error of at most
+/// a million times `length`, the diagonal of all clips, and of a million per cent.
+void limit_goal(double length, ClipGoal* goal);
+
 /// The largest of the targets of clips, which are of one metric.
 const Target& largest_target(const std::vector<ClipGoal>& goals);
 

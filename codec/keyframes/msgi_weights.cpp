@@ -50,10 +50,11 @@ class FrameFit {
         shape_(3 * clip.vertex_count),
         target_(clip.frame(frame), 3 * clip.vertex_count) {}
 
-  /// The frame's residual.
+  /// The frame's residual; infinite for weights so large that rounding keeps their sum from being one.
   VectorXd residual(const VectorXd& weights) {
     if (msgi_.evaluate(weights.data(), nullptr, scratch_.data(), shape_.data()) != Status::kOk)
-      throw Error(ErrorKind::kInternal, "weights that MSGI refuses");
+      return VectorXd::Constant(static_cast<Index>(shape_.size()),
+                                std::numeric_limits<double>::infinity());
     motion_ = fit_rigid_motion(shape_, target_);
     VectorXd left(static_cast<Index>(shape_.size()));
     for (size_t i = 0; i < shape_.size(); i += 3) {
@@ -210,9 +211,12 @@ class KeyframeMsgi {
       FrameFit frame(msgi_, clip_, f);
       VectorXd w = weights(f);
       if (std::binary_search(fit_.keyframes.begin(), fit_.keyframes.end(), f)) {
-        result.squared_errors[row] = frame.residual(w).squaredNorm();
-        result.motions[f] = frame.motion();
-        return;
+        const double error = frame.residual(w).squaredNorm();
+        if (std::isfinite(error)) {
+          result.squared_errors[row] = error;
+          result.motions[f] = frame.motion();
+          return;
+        }
       }
       result.squared_errors[row] = improve(frame, by_time(fit_.keyframes, f), w, result.motions[f]);
       result.weights.row(row) = w;

@@ -63,8 +63,14 @@ std::optional<Solution> TargetSearch::listed(std::optional<CodedPart> part) {
 
 std::optional<Solution> TargetSearch::at_max_error(SegmentCoder& coder, double bound,
                                                    const Solution* rival) {
-  if (bound == 0)  // per cent of nothing: all vertices are one point that stands still
-    return at_rmse(coder, input_.smallest_bound());
+  if (bound == 0) {  // per cent of nothing: all vertices are one point that stands still
+    for (const double share : {1.0, 0x1p-4, 0x1p-12}) {
+      std::optional<Solution> trial = at_rmse(coder, share * input_.smallest_bound());
+      if (trial && trial->max_error() == 0)
+        return trial;
+    }
+    return std::nullopt;
+  }
   // Corrections take care of the outliers: how many are worth having is measured, going from a
   // usual ratio of maximum to mean error in the direction that pays. Horse, dance, flag and a
   // captured face do best with 2.5 to 3.8.

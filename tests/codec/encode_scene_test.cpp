@@ -64,6 +64,25 @@ TEST(EncodeScene, NamesTheMeshThatFails) {
   }
 }
 
+TEST(EncodeScene, TakesAllFramesOfAMeshThatHasFewerThanKeyframes) {
+  Scene scene = split_parts(two_boxes());
+  MeshSequence& brief = scene.meshes[1].sequence;
+  brief.frame_count = 3;
+  brief.positions.resize(size_t{9} * brief.vertex_count);
+  scene.meshes[1].present_in = {{2, 3}};
+  EncodeOptions options;
+  options.basis = BasisChoice::kKeyframes;
+  options.keyframes = 5;
+  for (const KeyframeMethod method :
+       {KeyframeMethod::kGas, KeyframeMethod::kPivot, KeyframeMethod::kUniform}) {
+    options.select = method;
+    Clip clip;
+    ASSERT_TRUE(clip.open(encode_scene(scene, options).file).ok());
+    EXPECT_LE(clip.limits().segments[1].components, 3U);
+    EXPECT_THROW(encode(scene.meshes[1].sequence, options), Error);
+  }
+}
+
 TEST(EncodeScene, RefusesATargetSize) {
   EncodeOptions options;
   options.target = {ErrorMetric::kSize, 1e6, false};

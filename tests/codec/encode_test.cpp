@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <random>
 
@@ -173,6 +174,72 @@ TEST(Encode, RefusesWhatCannotBe) {
   EncodeOptions few = asking({ErrorMetric::kKg, 0.001, false}, BasisChoice::kKeyframes);
   few.keyframes = 2;
   EXPECT_THAT(fault(few), testing::HasSubstr("the best is"));
+}
+
+/// A file, or the reason that there is none, which is no defect.
+std::string reason(const MeshSequence& sequence, const EncodeOptions& options) {
+  try {
+    const EncodeResult result = encode(sequence, options);
+    Clip clip;
+    EXPECT_TRUE(clip.open(result.file).ok());
+    return "";
+  } catch (const Error& e) {
+    EXPECT_NE(e.kind(), ErrorKind::kInternal) << e.what();
+    return e.what();
+  }
+}
+
+MeshSequence points(std::vector<float> positions, uint32_t frames) {
+  MeshSequence sequence;
+  sequence.frame_count = frames;
+  sequence.vertex_count = static_cast<uint32_t>(positions.size() / 3 / frames);
+  sequence.polygons.offsets = {0};
+  sequence.positions.assign(positions.begin(), positions.end());
+  return sequence;
+}
+
+TEST(Encode, TakesErrorsBeyondAllNumbers) {
+  const MeshSequence limb = corpus::make_wave_grid(30, 8, 3);
+  for (const BasisChoice basis : {BasisChoice::kAuto, BasisChoice::kKeyframes,
+                                  BasisChoice::kEigenshapes, BasisChoice::kEigentrajectories}) {
+    for (const ErrorMetric metric : {ErrorMetric::kKg, ErrorMetric::kMaxError, ErrorMetric::kRmse,
+                                     ErrorMetric::kDisplacement, ErrorMetric::kSted}) {
+      for (const double value : {1e30, 3e38, 1e300})
+        EXPECT_EQ(reason(limb, asking({metric, value, false}, basis)), "") << value;
+    }
+  }
+}
+
+TEST(Encode, KeepsPointsThatStandStillExactlyOrSaysSo) {
+  std::vector<float> positions;
+  for (int f = 0; f < 8; ++f)
+    positions.insert(positions.end(), {9, 16, 4});
+  const MeshSequence still = points(positions, 8);
+  EXPECT_EQ(reason(still, asking(max_error(0.05), BasisChoice::kAuto)), "");
+  EncodeOptions by_draco = asking(max_error(0.05), BasisChoice::kKeyframes);
+  by_draco.keyframe_poses = KeyframePoses::kDraco;
+  by_draco.order = OrderMode::kFree;
+  EXPECT_THAT(reason(still, by_draco), testing::AnyOf("", "the target cannot be reached"));
+}
+
+TEST(Encode, RefusesTheMotionOfTheWholeOfLargestNumbers) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  EncodeOptions options = asking(max_error(0.05), BasisChoice::kAuto);
+  options.root_motion = true;
+  EXPECT_THAT(reason(points({kMost, 0, kMost, 1, 2, 3, 0, 0, 0, 4, 5, kMost}, 2), options),
+              testing::HasSubstr("too large"));
+  EXPECT_THAT(reason(points({1, 2, 3, -kMost, 5, -kMost}, 2), options),
+              testing::HasSubstr("too large"));
+}
+
+TEST(Encode, InterpolatesOutliersByWeightsThatSumToOne) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  std::vector<float> positions;
+  for (int f = 0; f < 6; ++f)
+    positions.insert(positions.end(), {3, 10, 17, 5, f == 1 ? -kMost : 12.0F, 0});
+  EncodeOptions options = asking({ErrorMetric::kKg, 5, false}, BasisChoice::kKeyframes);
+  options.interpolation = InterpolationChoice::kMsgi;
+  reason(points(positions, 6), options);
 }
 
 TEST(Encode, SizeTargetIsKept) {

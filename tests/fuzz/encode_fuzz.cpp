@@ -7,6 +7,7 @@
 #include <anicodec/anicodec.h>
 #include <anicodec/encode.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <deque>
@@ -73,10 +74,14 @@ class Encoding {
 
   /// Whether a call did what it was asked to; else it says what was wrong.
   bool taken(anic_status status) const {
-    require(status == ANIC_OK || *anic_get_encoder_text(encoder_) != '\0');
-    require(status == ANIC_OK || status == ANIC_E_ARGUMENT || status == ANIC_E_STATE ||
-            status == ANIC_E_NON_FINITE || status == ANIC_E_LIMIT || status == ANIC_E_INDEX_RANGE ||
-            status == ANIC_E_READ || status == ANIC_E_CANCELLED);
+    const char* const text = anic_get_encoder_text(encoder_);
+    const bool fair = status == ANIC_OK || status == ANIC_E_ARGUMENT || status == ANIC_E_STATE ||
+                      status == ANIC_E_NON_FINITE || status == ANIC_E_LIMIT ||
+                      status == ANIC_E_INDEX_RANGE || status == ANIC_E_READ ||
+                      status == ANIC_E_CANCELLED;
+    if (!fair || (status != ANIC_OK && *text == '\0'))
+      std::fprintf(stderr, "status %d: %s\n", static_cast<int>(status), text);
+    require(fair && (status == ANIC_OK || *text != '\0'));
     return status == ANIC_OK;
   }
 
