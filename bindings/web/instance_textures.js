@@ -91,6 +91,14 @@ vec3 anicPosition() {
 }
 `;
 
+/** For vertex shaders: the colour of a field at a vertex of an instance, by anicField, a byte each, anicColours and anicFieldRows, 0 if all show the same. */
+export const FIELD = `
+vec3 anicFieldColour() {
+  float share = texelFetch(anicField, ivec2(gl_VertexID % ${WIDTH}, gl_VertexID / ${WIDTH} + gl_InstanceID * anicFieldRows), 0).r;
+  return texelFetch(anicColours, ivec2(int(255.0 * share + 0.5), 0), 0).rgb;
+}
+`;
+
 export const rowsOf = (count) => Math.max(Math.ceil(count / WIDTH), 1);
 
 /** The data of a segment's textures, in texels of four: a row of WIDTH vertices, rows, and a layer for each component or four of them. */

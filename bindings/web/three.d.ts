@@ -26,6 +26,9 @@ export declare class AnicLoader extends Loader<AnicMesh> {
 /** A hit of a Raycaster (three.js r166 or later), or a point of a mesh of the clip by its number, the first one if it has none. */
 export type AnchorPoint = Pick<Intersection, 'object' | 'face' | 'barycoord'> | (SurfacePoint & { mesh?: number });
 
+/** The same of one of many instances, the first one if it has no number. */
+export type InstanceAnchorPoint = Pick<Intersection, 'instanceId' | 'face' | 'barycoord'> | (SurfacePoint & { instanceId?: number });
+
 /** A field that is shown, and the values that its colours run between. */
 export interface ShownField {
   name: string;
@@ -111,6 +114,15 @@ export declare class AnicInstances extends InstancedMesh {
   readonly madeByCpu: number;
   /** Throws where the graphics card draws into no float textures (EXT_color_buffer_float). */
   update(renderer: WebGLRenderer): void;
+  /** As AnicMesh.anchor(), on the surface of an instance; update() moves it. */
+  anchor(point: InstanceAnchorPoint, group?: Group): Group;
+  /** Names of the fields of the mesh. */
+  readonly fields: string[];
+  /**
+   * As AnicMesh.showField(), from the next update() on. The CPU makes the colours of a field that moves, of each instance whose time
+   * has changed. `material` is cloned.
+   */
+  showField(name?: string, options?: { low?: number; high?: number; material?: Material }): ShownField | undefined;
   /** Reads back what the card made: positions in the order of the source, or normals of the vertices. */
   read(renderer: WebGLRenderer, instance: number, what?: 'positions' | 'normals'): Float32Array;
   dispose(): this;

@@ -8,17 +8,23 @@
 // with them: light, shadows, fog. The CPU does the rest, such as corrections of single vertices, frames between two
 // segments, and geometry interpolation, for the instances concerned.
 import {
-  BufferAttribute, BufferGeometry, DataArrayTexture, DataTexture, FloatType, GLSL3,
+  BufferAttribute, BufferGeometry, DataArrayTexture, DataTexture, DoubleSide, FloatType, GLSL3,
   InstancedMesh, IntType, Matrix4, Mesh, MeshDepthMaterial, MeshDistanceMaterial, MeshStandardMaterial, NearestFilter,
-  OrthographicCamera, RGBADepthPacking, RGBAFormat, RGBAIntegerFormat, RawShaderMaterial, ShortType, Sphere, UnsignedIntType,
+  OrthographicCamera, RGBADepthPacking, RGBAFormat, RGBAIntegerFormat, RawShaderMaterial, RedFormat, ShortType, Sphere, UnsignedByteType, UnsignedIntType,
   Vector2, Vector3, WebGLRenderTarget,
 } from 'three';
-import { FETCH, FULL, InstanceStates, NORMALS, POSITIONS, WIDTH, normalTexels, pointsOf, rowsOf } from './instance_textures.js';
+import { fieldMoves, stepColours, writeFieldSteps } from './field_steps.js';
+import { fieldNames, fieldOf } from './fields.js';
+import { FETCH, FIELD, FULL, InstanceStates, NORMALS, POSITIONS, WIDTH, normalTexels, pointsOf, rowsOf } from './instance_textures.js';
+import { InstanceAnchors } from './three_instance_anchors.js';
 import { raycastInstances } from './three_rays.js';
 
 const DECLARED = `
 uniform highp sampler2D anicPositions, anicNormals;
 uniform int anicRows, anicSourceRows;`;
+const OF_FIELD = `
+uniform highp sampler2D anicField, anicColours;
+uniform int anicFieldRows;`;
 const FLOATS = [FloatType, RGBAFormat, 'RGBA32F'];
 
 function texture(Class, data, size, [type, format, internalFormat]) {
@@ -41,6 +47,9 @@ export class AnicInstances extends InstancedMesh {
   #screen;
   #camera = new OrthographicCamera();
   #passes;
+  #patched;
+  #anchors;
+  #shown;  // of a field: texture, moments that it has, the materials before
 
   constructor(mesh, count, material = new MeshStandardMaterial(), options = {}) {
     const geometry = new BufferGeometry();
@@ -73,19 +82,21 @@ export class AnicInstances extends InstancedMesh {
       anicPositions: { value: this.#targets.positions.texture }, anicNormals: { value: this.#targets.normals.texture },
       anicRows: { value: this.#rows }, anicSourceRows: { value: this.#sourceRows },
     };
-    const patched = (one) => {
+    this.#patched = (one, field) => {
       one.onBeforeCompile = (shader) => {
-        Object.assign(shader.uniforms, uniforms);
-        shader.vertexShader = DECLARED + FETCH + shader.vertexShader
+        Object.assign(shader.uniforms, uniforms, field);
+        shader.vertexShader = DECLARED + FETCH + (field ? OF_FIELD + FIELD : '') + shader.vertexShader
           .replace('#include <begin_vertex>', 'vec3 transformed = anicPosition();')
-          .replace('#include <beginnormal_vertex>', 'vec3 objectNormal = anicNormal().xyz;');
+          .replace('#include <beginnormal_vertex>', 'vec3 objectNormal = anicNormal().xyz;')
+          .replace('#include <color_vertex>', field ? '#include <color_vertex>\nvColor.rgb = anicFieldColour();' : '#include <color_vertex>');
       };
-      one.customProgramCacheKey = () => 'anicodec';
+      one.customProgramCacheKey = () => (field ? 'anicodec field' : 'anicodec');
       return one;
     };
-    this.material = patched(material.clone());
-    this.customDepthMaterial = patched(new MeshDepthMaterial({ depthPacking: RGBADepthPacking }));
-    this.customDistanceMaterial = patched(new MeshDistanceMaterial());
+    this.material = this.#patched(material.clone());
+    this.customDepthMaterial = this.#patched(new MeshDepthMaterial({ depthPacking: RGBADepthPacking }));
+    this.customDistanceMaterial = this.#patched(new MeshDistanceMaterial());
+    this.#anchors = new InstanceAnchors(this, mesh, (i) => this.#optionsOf(i));
     for (let i = 0; i < count; ++i)
       this.setMatrixAt(i, new Matrix4());
     this.#makePasses();
@@ -154,6 +165,54 @@ export class AnicInstances extends InstancedMesh {
     renderer.render(this.#screen, this.#camera);
     renderer.setRenderTarget(target);
     renderer.autoClear = clears;
+    this.#anchors.update();
+    if (this.#shown)
+      this.#paint();
+  }
+
+  /**
+   * Keeps a group on a point of an instance's surface, as AnicMesh.anchor() does: a hit of a Raycaster, or a point of ClipMesh.intersectRay()
+   * with the number `instanceId`. update() moves it.
+   */
+  anchor(point, group) { return this.#anchors.add(point, group); }
+
+  /** Names of the fields of the mesh. */
+  get fields() { return fieldNames({ meshes: [this.#mesh] }); }
+
+  /** Shows a field as colours, as AnicMesh.showField() does, from the next update() on. Each instance has those of its time. */
+  showField(name, { material, ...range } = {}) {
+    const field = name === undefined ? undefined : fieldOf(this.#mesh.clip, name, this.#mesh.clip.find(this.clips[0]), range);
+    const own = this.#shown?.own ?? this.material;
+    if (this.#shown) {
+      this.#shown.texture.dispose();
+      this.#shown.colours.dispose();
+      this.material.dispose();
+    }
+    this.material = own;
+    this.#shown = undefined;
+    if (!field)
+      return undefined;
+    const moves = fieldMoves(this.#mesh, field), rows = this.#rows, height = moves ? rows * this.count : rows;
+    const texture = sheet(new Uint8Array(WIDTH * height), WIDTH, height, [UnsignedByteType, RedFormat, 'R8']), colours = sheet(stepColours(), 256, 1, FLOATS);
+    this.material = this.#patched(material?.clone() ?? new MeshStandardMaterial({ side: DoubleSide }), {
+      anicField: { value: texture }, anicColours: { value: colours }, anicFieldRows: { value: moves ? rows : 0 },
+    });
+    this.material.vertexColors = true;
+    this.#shown = { own, field, texture, colours, times: new Array(moves ? this.count : 1) };
+    return field;
+  }
+
+  /** Brings the bytes of a field to the times of the instances. */
+  #paint() {
+    const { field, texture, times } = this.#shown, { data } = texture.image, size = WIDTH * this.#rows;
+    for (let i = 0; i < times.length; ++i) {
+      const key = `${this.clips[i]} ${this.times[i]}`;
+      if (times[i] === key || (times.length === 1 && times[i] !== undefined))
+        continue;
+      writeFieldSteps(this.#mesh, field, this.times[i], this.#optionsOf(i), data.subarray(i * size, (i + 1) * size));
+      times[i] = key;
+      texture.needsUpdate = true;
+    }
   }
 
   /** Positions of one instance by the CPU. */
@@ -178,6 +237,7 @@ export class AnicInstances extends InstancedMesh {
 
   dispose() {
     super.dispose();
+    this.showField();
     for (const target of Object.values(this.#targets))
       target.dispose();
     for (const { made } of this.#states.segments)

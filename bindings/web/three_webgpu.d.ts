@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-import type { Intersection, Material, Matrix4, Mesh, Raycaster } from 'three';
+import type { Group, Intersection, Material, Matrix4, Mesh, Raycaster } from 'three';
 import type { WebGPURenderer } from 'three/webgpu';
 import type { ClipMesh, SampleOptions } from './index.js';
+import type { InstanceAnchorPoint } from './three.js';
 
 /**
  * Many instances of a mesh at different times, drawn by one call of WebGPURenderer: a compute pass combines the resident basis,
@@ -22,6 +23,8 @@ export declare class AnicInstances extends Mesh {
   setMatrixAt(instance: number, matrix: Matrix4): void;
   getMatrixAt(instance: number, matrix: Matrix4): Matrix4;
   update(renderer: WebGPURenderer): void;
+  /** Keeps a group on a point of an instance's surface, as AnicMesh.anchor() does; update() moves it. */
+  anchor(point: InstanceAnchorPoint, group?: Group): Group;
   /** Reads back what the card made: positions in the order of the source. */
   read(renderer: WebGPURenderer, instance: number): Promise<Float32Array>;
   raycast(raycaster: Raycaster, intersects: Intersection[]): void;

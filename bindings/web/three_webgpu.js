@@ -10,6 +10,7 @@ import { Fn, If, Loop, Return, cross, dot, float, instanceIndex, int, normalLoca
 import {
   BufferAttribute, BufferGeometry, Mesh, MeshStandardNodeMaterial, Sphere, StorageBufferAttribute, Vector3,
 } from 'three/webgpu';
+import { InstanceAnchors } from './three_instance_anchors.js';
 import { raycastInstances } from './three_rays.js';
 
 const MATRIX = 0, MOTION = 3, SEGMENT = 6, REGIONS = 7;  // of an instance, in vectors of four
@@ -39,6 +40,7 @@ export class AnicInstances extends Mesh {
   #stride;
   #positions;
   #plan;
+  #anchors;
 
   constructor(mesh, count, material = new MeshStandardNodeMaterial(), options = {}) {
     const geometry = new BufferGeometry(), n = mesh.vertexCount;
@@ -65,6 +67,7 @@ export class AnicInstances extends Mesh {
     for (let i = 0; i < count; ++i)
       this.#state.attribute.array.set([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0], this.#at(i, MATRIX));
     this.material.positionNode = this.#shown();
+    this.#anchors = new InstanceAnchors(this, mesh, (i) => this.#optionsOf(i));
   }
 
   #at(instance, vector) {
@@ -200,7 +203,11 @@ export class AnicInstances extends Mesh {
       this.#positions.needsUpdate = true;
     for (const segment of segments)
       renderer.compute(this.#segment(segment).pass);
+    this.#anchors.update();
   }
+
+  /** Keeps a group on a point of an instance's surface: a hit of a Raycaster, or a point of ClipMesh.intersectRay() with `instanceId`. */
+  anchor(point, group) { return this.#anchors.add(point, group); }
 
   /** The positions that the card made, or that it is given when it draws: in the order of the source. For tests. */
   async read(renderer, instance) {

@@ -572,3 +572,88 @@ test('the graphics card plays instances as the CPU does', { skip }, async (t) =>
   }
   assert.ok(byCard >= 5);
 });
+
+test('instances have fields as meshes do, and objects on their surfaces', { skip }, async () => {
+  const result = await inPage(async () => {
+    const THREE = await import('three'), { Anicodec } = await import('anicodec'), { AnicInstances, AnicMesh } = await import('anicodec/three');
+    const clip = await Anicodec.open('/tests/conformance/heated.anic'), [mesh] = clip.meshes, renderer = new THREE.WebGLRenderer(), scene = new THREE.Scene();
+    renderer.setSize(320, 240);
+    const cpu = new AnicMesh(clip), many = new AnicInstances(mesh, 3), light = new THREE.DirectionalLight(0xffffff, 3), { center, radius } = many.geometry.boundingSphere;
+    const camera = new THREE.PerspectiveCamera(40, 4 / 3, radius / 10, radius * 10), away = new THREE.Matrix4().makeTranslation(0, 100 * radius, 0);
+    cpu.rotation.set(0, 0, 0);
+    light.position.set(1, 2, 3);
+    camera.position.copy(center).add(new THREE.Vector3(radius, radius, 3 * radius));
+    camera.lookAt(center);
+    scene.add(light, cpu, many);
+    many.frustumCulled = false;
+    const picture = () => {
+      many.instanceMatrix.needsUpdate = true;
+      many.update(renderer);
+      renderer.render(scene, camera);
+      const gl = renderer.getContext(), pixels = new Uint8Array(4 * 320 * 240);
+      gl.readPixels(0, 0, 320, 240, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+      return pixels;
+    };
+    const differing = (a, b) => a.reduce((sum, x, k) => sum + (Math.abs(x - b[k]) > 24), 0), outcome = { fields: many.fields, shares: [] };
+    cpu.visible = false;
+    const plain = picture();
+    for (const share of [0.2, 0.8]) {
+      const field = many.showField('temperature', { low: 0, high: 100 });
+      many.times.set([0.5, share, 0.1].map((part) => part * clip.duration));
+      [0, 2].forEach((i) => many.setMatrixAt(i, away));
+      cpu.showField('temperature', field);
+      cpu.time = many.times[1];
+      const ours = picture();
+      many.visible = false;
+      cpu.visible = true;
+      const theirs = picture();
+      many.visible = true;
+      cpu.visible = false;
+      outcome.shares.push([differing(ours, theirs), theirs.reduce((sum, x, k) => sum + (k % 4 === 1 && x > 8), 0), differing(ours, plain)]);
+    }
+    many.showField();
+    [0, 2].forEach((i) => many.setMatrixAt(i, new THREE.Matrix4()));
+    many.times.fill(0);
+    outcome.back = differing(picture(), plain);
+    // An object on the second of them, which stands turned, moved and larger.
+    const matrix = new THREE.Matrix4().compose(new THREE.Vector3(3, -2, 1), new THREE.Quaternion().setFromEuler(new THREE.Euler(0.3, 1, -0.4)), new THREE.Vector3(2, 2, 2));
+    const point = { vertices: [0, 1, 2], weights: [0.5, 0.25, 0.25] }, pin = many.anchor({ instanceId: 1, ...point });
+    many.setMatrixAt(1, matrix);
+    many.position.set(0.5, 0, 0);
+    many.times[1] = 0.6 * clip.duration;
+    many.update(renderer);
+    scene.updateMatrixWorld();
+    const { position, normal } = mesh.surfaceFrame(point, many.times[1]), place = many.matrixWorld.clone().multiply(matrix), at = pin.localToWorld(new THREE.Vector3());
+    outcome.pinned = new THREE.Vector3(...position).applyMatrix4(place).distanceTo(at);
+    outcome.turned = new THREE.Vector3(...normal).transformDirection(place).distanceTo(pin.localToWorld(new THREE.Vector3(0, 1, 0)).sub(at).normalize());
+    const target = center.clone().applyMatrix4(place), ray = new THREE.Raycaster(target.clone().add(new THREE.Vector3(0, 0, 20 * radius)), new THREE.Vector3(0, 0, -1));
+    const [hit] = ray.intersectObject(many), held = many.anchor(hit);
+    scene.updateMatrixWorld();
+    outcome.held = [hit.instanceId, held.localToWorld(new THREE.Vector3()).distanceTo(hit.point)];
+    held.removeFromParent();
+    const before = held.position.clone();
+    many.times[1] = 0;
+    many.update(renderer);
+    outcome.free = held.position.equals(before);
+    outcome.faults = [() => many.anchor({ instanceId: 3, ...point }), () => many.anchor({ vertices: [0, 1, 1e9], weights: [1, 0, 0] }), () => many.showField('none')].map((wrong) => {
+      try {
+        wrong();
+        return undefined;
+      } catch (error) {
+        return error.message;
+      }
+    });
+    for (const object of [many, cpu])
+      object.dispose();
+    outcome.error = renderer.getContext().getError();
+    return { ...outcome, radius };
+  });
+  assert.ok(result.fields.includes('temperature'));
+  for (const [far, lit, changed] of result.shares)
+    assert.ok(lit > 1000 && far <= 0.01 * lit + 20 && changed > 1000, JSON.stringify(result.shares));
+  assert.equal(result.back, 0);
+  assert.ok(result.pinned < 1e-4 * result.radius && result.turned < 1e-4, JSON.stringify(result));
+  assert.deepEqual([result.held[0], result.held[1] < 1e-3 * result.radius, result.free, result.error], [1, true, true, 0]);
+  assert.match(result.faults[0], /no instance 3 of 3/);
+  assert.ok(result.faults.every(Boolean), JSON.stringify(result.faults));
+});
