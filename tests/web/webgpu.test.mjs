@@ -107,3 +107,29 @@ test('WebGPU plays instances as the CPU does', { skip: CHROMIUM ? false : 'there
   }
   assert.ok(byCard >= 5);
 });
+
+test('objects stay on instances that WebGPU plays', { skip: CHROMIUM ? false : 'there is no Chromium' }, async (t) => {
+  const result = await withPage(async (page, messages) => {
+    await page.goto(`${server.url}/page`);
+    if (!await page.evaluate(async () => !!await navigator.gpu?.requestAdapter()))
+      return undefined;
+    const outcome = await page.evaluate(async () => {
+      const GPU = await import('three/webgpu'), { Anicodec } = await import('anicodec'), { AnicInstances } = await import('anicodec/three/webgpu');
+      const clip = await Anicodec.open('/tests/conformance/limb_small.anic'), [mesh] = clip.meshes, renderer = new GPU.WebGPURenderer();
+      await renderer.init();
+      const many = new AnicInstances(mesh, 2), point = { vertices: [0, 1, 2], weights: [0.5, 0.25, 0.25] }, pin = many.anchor({ instanceId: 1, ...point });
+      const matrix = new GPU.Matrix4().compose(new GPU.Vector3(3, -2, 1), new GPU.Quaternion().setFromEuler(new GPU.Euler(0.3, 1, -0.4)), new GPU.Vector3(2, 2, 2));
+      many.setMatrixAt(1, matrix);
+      many.times[1] = 0.6 * clip.duration;
+      many.update(renderer);
+      many.updateMatrixWorld();
+      const { position } = mesh.surfaceFrame(point, many.times[1]), at = pin.localToWorld(new GPU.Vector3());
+      return { far: new GPU.Vector3(...position).applyMatrix4(matrix).distanceTo(at) / clip.info.diagonal, moved: at.length() > 0, parent: pin.parent === many };
+    });
+    assert.deepEqual(messages, []);
+    return outcome;
+  }, { webgpu: true });
+  if (!result)
+    return t.skip('this Chromium has no WebGPU');
+  assert.ok(result.far < 1e-5 && result.moved && result.parent, JSON.stringify(result));
+});
