@@ -10,8 +10,9 @@ import sys
 
 import csharp
 import headers
+import web
 
-WRITERS = (csharp,)
+WRITERS = (csharp, web)
 
 
 def main() -> int:

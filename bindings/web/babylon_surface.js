@@ -32,7 +32,7 @@ export function giveSurface(object, mesh, scene, { material, prepare = (one) => 
   const n = mesh.vertexCount;
   object.setVerticesData(VertexBuffer.PositionKind, new Float32Array(3 * n), updatable);
   object.setVerticesData(VertexBuffer.NormalKind, new Float32Array(3 * n), updatable);
-  const uv = mesh.attribute('uv'), colour = mesh.attributes.find((a) => a.kind === 'colour' && a.components >= 3 && a.domain !== 'polygon');
+  const uv = mesh.attribute('uv'), colour = mesh.attributes.find((a) => a.kind === 'colour' && a.components >= 3 && a.domain !== 'polygons');
   if (uv && uv.length === 2 * n)
     object.setVerticesData(VertexBuffer.UVKind, uv);
   if (colour)

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
+import {
+  ASSET_INFO, ATTRIBUTE, BASIS, BOX, CLIP, EVENT, HIT, MATERIAL, MESH, PARTS, POLYGONS, RENDER_INFO, ROOT_MOTION, SAMPLING, SIDE, SURFACE_FRAME, WRAP,
+} from './interface.js';
 import { AnicError } from './status.js';
 
-const SAMPLING = { step: 0, linear: 1, cubic: 2 };
-const WRAP = { clamp: 0, loop: 1, 'ping-pong': 2 };
-const KINDS = ['uv', 'normal', 'tangent', 'colour', 'custom', 'material', 'part'];
-const DOMAINS = ['vertex', 'corner', 'polygon'];
 const ABSENT = 'ANIC_E_ABSENT';
 const FLOAT32X3 = 0;
 
@@ -35,13 +34,8 @@ export class Clip {
     this.#scratch = { at: 0, size: 0 };
     this.#seeked = undefined;
     decoder.call('info');
-    const [meshes, segments, frames, rate, up, rateAssumed, uneven, loop, closedLoop, partial, startTime, duration, loopDuration,
-      metresPerUnit, diagonal, maxError, rmse, kg, maxDisplacementError, residentBytes, contextBytes, ...origin] = decoder.numbers(24);
-    this.info = Object.freeze({
-      name: decoder.string(decoder.run('name')), frames, rate, rateAssumed: !!rateAssumed, uneven: !!uneven, loop: !!loop,
-      closedLoop: !!closedLoop, partial: !!partial, startTime, duration, loopDuration, up: [undefined, 'y', 'z'][up],
-      metresPerUnit: metresPerUnit || undefined, origin: Object.freeze(origin), diagonal, maxError, rmse, kg, maxDisplacementError, segments, residentBytes, contextBytes,
-    });
+    const { meshes, ...info } = decoder.read(ASSET_INFO);
+    this.info = Object.freeze({ ...info, metresPerUnit: info.metresPerUnit || undefined, origin: Object.freeze(info.origin) });
     this.clips = Object.freeze(Array.from({ length: decoder.run('clip_count') }, (_, i) => this.#clipInfo(i)));
     this.#first = this.clips.find(({ isOpen }) => isOpen);
     // Meshes that the host holds stay the same objects.
@@ -53,22 +47,14 @@ export class Clip {
   #clipInfo(index) {
     const decoder = this.#decoder;
     decoder.call('clip', index);
-    const [name, firstFrame, frames, rate, rateAssumed, uneven, loop, closedLoop, isOpen, startTime, duration, loopDuration, diagonal,
-      maxError, rmse, kg, maxDisplacementError] = decoder.numbers(17);
-    return Object.freeze({
-      index, name: decoder.string(name), firstFrame, frames, rate, rateAssumed: !!rateAssumed, uneven: !!uneven, loop: !!loop,
-      closedLoop: !!closedLoop, isOpen: !!isOpen, startTime, duration, loopDuration, diagonal, maxError, rmse, kg,
-      maxDisplacementError,
-      events: this.#events(index),
-    });
+    return Object.freeze({ index, ...decoder.read(CLIP), events: this.#events(index) });
   }
 
   #events(clip) {
     const decoder = this.#decoder;
     return Object.freeze(Array.from({ length: decoder.run('event_count', clip) }, (_, event) => {
       decoder.call('event', clip, event);
-      const [name, seconds] = decoder.numbers(2);
-      return Object.freeze({ name: decoder.string(name), seconds });
+      return Object.freeze(decoder.read(EVENT));
     }));
   }
 
@@ -133,8 +119,7 @@ export class Clip {
     const found = this.find(clip);
     this.decoder.call(name, found.index, ...times.map(Number), number(SAMPLING, sampling, 'sampling'),
       number(WRAP, wrap ?? (found.loop ? 'loop' : 'clamp'), 'wrap'));
-    const all = Array.from(this.decoder.numbers(19));
-    return { turn: all[0], move: all.slice(1, 4), pivot: all.slice(4, 7), matrix: all.slice(7) };
+    return this.decoder.read(ROOT_MOTION);
   }
 
   /** Chooses what the following calls show. */
@@ -194,16 +179,12 @@ export class Clip {
   basis(segment) {
     const decoder = this.decoder;
     decoder.call('basis', segment);
-    const [kind, reconstruction, target, mesh, attribute, firstComponent, firstFrame, frameCount, vertexCount, components,
-      wideComponents, channels, weightChannels, x, y, z, pose, wide, narrow, poseCount, wideCount, narrowCount,
-      vertexShape, regions, vertexRegion] = decoder.numbers(25);
+    const { reconstruction, target, poseAt, wideAt, narrowAt, poseCount, wideCount, narrowCount, vertexShapeAt, vertexRegionAt, ...basis } = decoder.read(BASIS);
     const copy = (Type, at, count) => (at ? decoder.view(Type, at, count).slice() : null);
     return {
-      kind: ['keyframes', 'eigenshapes', 'eigentrajectories'][kind], msgi: reconstruction === 1, movesAttribute: target === 1,
-      mesh, attribute, firstComponent, firstFrame, frameCount, vertexCount, components, wideComponents, channels, weightChannels,
-      origin: [x, y, z], pose: copy(Float32Array, pose, poseCount), wide: copy(Int32Array, wide, wideCount),
-      narrow: copy(Int16Array, narrow, narrowCount), vertexShape: copy(Uint32Array, vertexShape, vertexCount),
-      regions, vertexRegion: copy(Uint8Array, vertexRegion, vertexCount),
+      ...basis, msgi: reconstruction === 'msgi', movesAttribute: target === 'attribute',
+      pose: copy(Float32Array, poseAt, poseCount), wide: copy(Int32Array, wideAt, wideCount), narrow: copy(Int16Array, narrowAt, narrowCount),
+      vertexShape: copy(Uint32Array, vertexShapeAt, basis.vertexCount), vertexRegion: copy(Uint8Array, vertexRegionAt, basis.vertexCount),
     };
   }
 
@@ -234,9 +215,9 @@ export class ClipMesh {
   replaced() {
     const decoder = this.#clip.decoder;
     decoder.call('mesh', this.#index);
-    const [sourceVertices, , polygons, corners, , attributes, name] = decoder.numbers(7);
-    Object.assign(this, { name: decoder.string(name), sourceVertexCount: sourceVertices, polygonCount: polygons, cornerCount: corners });
-    this.attributes = Array.from({ length: attributes }, (_, a) => this.#attributeInfo(a));
+    const { name, vertexCount, polygonCount, cornerCount, attributeCount } = decoder.read(MESH);
+    Object.assign(this, { name, sourceVertexCount: vertexCount, polygonCount, cornerCount });
+    this.attributes = Array.from({ length: attributeCount }, (_, a) => this.#attributeInfo(a));
     this.#plan = undefined;
     if (this.#render)
       this.#makePlan();
@@ -245,12 +226,9 @@ export class ClipMesh {
   #attributeInfo(index) {
     const decoder = this.#clip.decoder;
     decoder.call('attribute', this.#index, index);
-    const [kind, domain, count, components, labels, moves, name] = decoder.numbers(9);
-    const looks = KINDS[kind] === 'material' ? Array.from({ length: labels }, (_, l) => this.#look(index, l)) : [];
-    return {
-      index, name: decoder.string(name), kind: KINDS[kind], domain: DOMAINS[domain], count, components, moves: moves !== 0,
-      labels: Array.from({ length: labels }, (_, l) => decoder.string(decoder.run('label_name', this.#index, index, l))), looks,
-    };
+    const { valuesAt, labelsAt, labelCount, ...attribute } = decoder.read(ATTRIBUTE);
+    const labels = Array.from({ length: labelCount }, (_, l) => decoder.string(decoder.run('label_name', this.#index, index, l)));
+    return { index, ...attribute, labels, looks: attribute.kind === 'material' ? labels.map((_, l) => this.#look(index, l)) : [] };
   }
 
   /** The look of a material that a label names; undefined where the file has its name alone. */
@@ -258,12 +236,8 @@ export class ClipMesh {
     const decoder = this.#clip.decoder;
     if (decoder.run('material', this.#index, attribute, label) !== 0)
       return undefined;
-    const n = Array.from(decoder.numbers(17)), image = (at) => decoder.string(n[at]) || undefined;
-    return {
-      baseColour: n.slice(0, 4), metallic: n[4], roughness: n[5], emissive: n.slice(6, 9), alpha: ['opaque', 'mask', 'blend'][n[9]],
-      alphaCutoff: n[10], doubleSided: n[11] !== 0, baseColourImage: image(12), metallicRoughnessImage: image(13),
-      normalImage: image(14), occlusionImage: image(15), emissiveImage: image(16),
-    };
+    const { name, ...look } = decoder.read(MATERIAL);
+    return Object.fromEntries(Object.entries(look).map(([key, value]) => [key, value === '' ? undefined : value]));
   }
 
   get clip() { return this.#clip; }
@@ -298,13 +272,13 @@ export class ClipMesh {
     if (!this.#render) {
       const decoder = this.#clip.decoder;
       decoder.call('plan_info', this.#planned);
-      const [vertices, triangles, groups, vertexAt, cornerAt, indexAt, polygonAt, materialAt, beginAt] = decoder.numbers(9);
+      const plan = decoder.read(RENDER_INFO), { vertexCount, triangleCount, groupCount } = plan;
       const copy = (at, count) => decoder.view(Uint32Array, at, at ? count : 0).slice();
-      const begin = copy(beginAt, groups + 1), labels = copy(materialAt, groups);
+      const begin = copy(plan.groupBeginAt, groupCount + 1), labels = copy(plan.groupMaterialsAt, groupCount);
       const { labels: names = [], looks = [] } = this.attributes.find((a) => a.kind === 'material') ?? {};
       this.#render = {
-        vertexCount: vertices, triangleCount: triangles, indices: copy(indexAt, 3 * triangles),
-        sourceVertices: copy(vertexAt, vertices), sourceCorners: copy(cornerAt, vertices), trianglePolygons: copy(polygonAt, triangles),
+        vertexCount, triangleCount, indices: copy(plan.indicesAt, 3 * triangleCount), sourceVertices: copy(plan.verticesAt, vertexCount),
+        sourceCorners: copy(plan.cornersAt, vertexCount), trianglePolygons: copy(plan.trianglePolygonsAt, triangleCount),
         groups: Array.from(labels, (label, g) => ({
           start: 3 * begin[g], count: 3 * (begin[g + 1] - begin[g]), material: label > 0 ? names[label - 1] : undefined, look: label > 0 ? looks[label - 1] : undefined,
         })),
@@ -335,10 +309,10 @@ export class ClipMesh {
   get normalPlan() {
     const decoder = this.#clip.decoder, source = this.sourceVertices, vertices = this.vertexCount;
     decoder.call('plan_info', this.#planned);
-    const [groups, groupAt, centreAt, beginAt, cornerAt] = decoder.numbers(14).slice(9);
+    const plan = decoder.read(RENDER_INFO), groups = plan.normalGroupCount;
     const view = (at, count) => decoder.view(Uint32Array, at, count);
-    const group = view(groupAt, vertices), centre = view(centreAt, groups), begin = view(beginAt, groups + 1);
-    const corners = view(cornerAt, 2 * begin[groups]);
+    const group = view(plan.normalGroupsAt, vertices), centre = view(plan.normalCentresAt, groups), begin = view(plan.normalBeginAt, groups + 1);
+    const corners = view(plan.normalCornersAt, 2 * begin[groups]);
     const normalElements = new Uint32Array(4 * vertices), normalCorners = new Uint32Array(2 * corners.length);
     for (let r = 0; r < vertices; ++r) {
       const g = group[r];
@@ -354,8 +328,7 @@ export class ClipMesh {
     const decoder = this.#clip.decoder;
     if (decoder.run('clip_bounds', this.#index) !== 0)
       return undefined;
-    const n = decoder.numbers(6);
-    return { min: [...n.subarray(0, 3)], max: [...n.subarray(3, 6)] };
+    return decoder.read(BOX);
   }
 
   /** Runs write(address, bytes) and copies what it wrote to `out`. */
@@ -421,7 +394,7 @@ export class ClipMesh {
     if (!found || found.components === 0)
       return undefined;
     const context = this.#clip.seek(time, options);
-    if (found.domain === 'polygon')
+    if (found.domain === 'polygons')
       return this.#write(Float32Array, found.components * found.count, out, (at, bytes) =>
         this.#clip.decoder.call('write_attribute', context, this.#index, found.index, found.count, at, bytes));
     const plan = this.#planned, count = this.vertexCount;
@@ -438,8 +411,7 @@ export class ClipMesh {
     if (Array.from(vertices).some((vertex) => !(vertex in source)))
       throw new AnicError('ANIC_E_ARGUMENT', `there are no vertices ${vertices}`);
     decoder.call('surface_frame', this.#clip.seek(time, options), this.#index, ...Array.from(vertices, (vertex) => source[vertex]), ...weights);
-    const n = [...decoder.numbers(9)];
-    return { position: n.slice(0, 3), normal: n.slice(3, 6), tangent: n.slice(6) };
+    return decoder.read(SURFACE_FRAME);
   }
 
   /**
@@ -448,15 +420,15 @@ export class ClipMesh {
    */
   intersectRay({ origin, direction, farthest = 0, side = 'any' }, time, options) {
     const decoder = this.#clip.decoder, context = this.#clip.seek(time, options), indices = this.indices, source = this.sourceVertices;
-    const triangles = this.triangleCount, work = 12 * this.sourceVertexCount, sides = ['any', 'front', 'back'];
+    const triangles = this.triangleCount, work = 12 * this.sourceVertexCount;
     const at = this.#clip.scratch(28 + 12 * triangles + work);
     decoder.view(Float32Array, at, 7).set([...origin, ...direction, farthest]);
     decoder.view(Uint32Array, at + 28, 3 * triangles).set(indices.map((vertex) => source[vertex]));
-    decoder.call('intersect_ray', context, this.#index, at, sides.indexOf(side), at + 28, triangles, at + 28 + 12 * triangles, work);
-    const [distance, triangle, ...n] = decoder.numbers(6);
+    decoder.call('intersect_ray', context, this.#index, at, SIDE[side] ?? -1, at + 28, triangles, at + 28 + 12 * triangles, work);
+    const { point, distance, triangle, side: met } = decoder.read(HIT);
     if (distance === Infinity)
       return undefined;
-    return { distance, triangle, vertices: [...indices.subarray(3 * triangle, 3 * triangle + 3)], weights: n.slice(0, 3), side: sides[n[3]] };
+    return { distance, triangle, vertices: [...indices.subarray(3 * triangle, 3 * triangle + 3)], weights: point.weights, side: met };
   }
 
   /** Positions of the vertices of the source, in its order: sourceVertexCount x 3. */
@@ -469,21 +441,15 @@ export class ClipMesh {
   get polygons() {
     const decoder = this.#clip.decoder;
     decoder.call('polygons', this.#index);
-    const [count, offsets, corners] = decoder.numbers(3);
-    return { offsets: decoder.view(Uint32Array, offsets, count + 1).slice(), corners: decoder.view(Uint32Array, corners, this.cornerCount).slice() };
+    const { offsetsAt, cornersAt, polygonCount } = decoder.read(POLYGONS), copy = (at, count) => decoder.view(Uint32Array, at, count).slice();
+    return { offsets: copy(offsetsAt, polygonCount + 1), corners: copy(cornersAt, this.cornerCount) };
   }
 
   /** Data that a shader needs at a time, beside basis(): see anic_part of anicodec.h. Arrays are good until the next call. */
   parts(time, options) {
     const context = this.#clip.seek(time, options), decoder = this.#clip.decoder;
     decoder.call('parts', context, this.#index);
-    const count = decoder.numbers(1)[0], n = decoder.numbers(1 + 31 * count);
-    return Array.from({ length: count }, (_, p) => {
-      const at = 1 + 31 * p;
-      return {
-        segment: n[at], share: n[at + 1], weightsAt: n[at + 2], shapeAt: n[at + 3], correctionsAt: n[at + 4], correctionCount: n[at + 5],
-        poseMap: n.slice(at + 6, at + 18), motion: n.slice(at + 18, at + 30), poseMapsAt: n[at + 30],
-      };
-    });
+    const { count, parts, poseMapsAt } = decoder.read(PARTS);
+    return parts.slice(0, count).map((part, p) => ({ ...part, poseMapsAt: poseMapsAt[p] }));
   }
 }

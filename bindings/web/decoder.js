@@ -3,17 +3,25 @@
 //
 // One clip in one instance of the WebAssembly module: what binding/web.c exports, with errors as exceptions. Dropping the
 // instance gives all of its memory back, and a decoder that ran out of memory takes only its own clip with it.
-import { AnicError, STATUS } from './status.js';
-
-const FEATURE = 12;
-const OPEN_BOUNDS = 1;
-const OPEN_IN_PLACE = 4;
-const OPEN_INEXACT = 8;
+import { FAILURE, OPEN_BOUNDS, OPEN_INEXACT, OPEN_IN_PLACE, STATUS, STREAM_INFO } from './interface.js';
+import { AnicError } from './status.js';
 
 function flagsOf({ bounds, inPlace, inexact }) {
   return (bounds ? OPEN_BOUNDS : 0) | (inPlace ? OPEN_IN_PLACE : 0) | (inexact ? OPEN_INEXACT : 0);
 }
 const text = new TextDecoder();
+
+/** Bytes of a number, and how it is read. */
+const NUMBERS = {
+  bool: [1, (view, at) => view.getUint8(at) !== 0],
+  i16: [2, (view, at) => view.getInt16(at, true)],
+  i32: [4, (view, at) => view.getInt32(at, true)],
+  u32: [4, (view, at) => view.getUint32(at, true)],
+  u64: [8, (view, at) => Number(view.getBigUint64(at, true))],
+  f32: [4, (view, at) => view.getFloat32(at, true)],
+  f64: [8, (view, at) => view.getFloat64(at, true)],
+  ratio: [8, (view, at) => view.getUint32(at, true) / (view.getUint32(at + 4, true) || 1)],
+};
 
 export class Decoder {
   /** An empty decoder. progress(share) may return true to stop an opening. */
@@ -33,7 +41,7 @@ export class Decoder {
     decoder.wasm = instance.exports;
     decoder.memory = instance.exports.memory;
     decoder.wasm._initialize();
-    decoder.numbersAt = decoder.wasm.web_numbers();
+    decoder.resultAt = decoder.wasm.web_result();
     return decoder;
   }
 
@@ -81,20 +89,40 @@ export class Decoder {
 
   /** The failure of an opening: with the place in the file. */
   failure(status) {
-    const detail = this.string(this.wasm.web_failure_detail());
-    const offset = this.numbers(1)[0];
-    const chunk = this.string(this.wasm.web_failure_chunk());
+    const { detail, offset, chunk } = this.read(FAILURE, this.wasm.web_failure());
     const what = detail || this.string(this.wasm.web_status_text(status));
     const error = new AnicError(STATUS[status] ?? `status ${status}`, chunk ? `${what} (chunk ${chunk}, byte ${offset})` : what,
       { chunk, offset });
     // The full module has geometry interpolation and exact positions, and no other feature.
-    error.needsFullModule = status === FEATURE && (detail.includes('feature 2 ') || !detail.includes('needs feature'));
+    error.needsFullModule = error.status === 'ANIC_E_FEATURE' && (detail.includes('feature 2 ') || !detail.includes('needs feature'));
     return error;
   }
 
-  /** The numbers that the last call left; good until the next call. */
+  /** A struct of interface.js, by default the one that the last call left. */
+  read({ fields }, at = this.resultAt) {
+    const view = new DataView(this.memory.buffer);
+    const one = (kind, place) => {
+      if (kind === 'text')
+        return this.string(view.getUint32(place, true));
+      if (kind === 'chars')
+        return this.string(place);
+      if (kind.fields)
+        return this.read(kind, place);
+      if (Array.isArray(kind)) {
+        const number = view.getInt32(place, true);
+        return number in kind ? kind[number] : number;
+      }
+      return NUMBERS[kind][1](view, place);
+    };
+    return Object.fromEntries(fields.map(([name, kind, offset, count]) => {
+      const size = kind.size ?? NUMBERS[kind]?.[0];
+      return [name, count ? Array.from({ length: count }, (_, i) => one(kind, at + offset + i * size)) : one(kind, at + offset)];
+    }));
+  }
+
+  /** The numbers that the last call left, where it left no struct. */
   numbers(count) {
-    return new Float64Array(this.memory.buffer, this.numbersAt, count);
+    return new Uint32Array(this.memory.buffer, this.resultAt, count);
   }
 
   /** A typed array over the module's memory; good until memory grows. */
@@ -163,8 +191,9 @@ export class Decoder {
     if (status !== 0)
       throw this.failure(status);
     this.call('stream_info');
-    const [received, size, playable, complete] = this.numbers(4);
-    return { received, size, playable: playable !== 0, complete: complete !== 0 };
+    const { receivedBytes, fileBytes, playable, layers, arrivedLayers, complete } = this.read(STREAM_INFO);
+    // A page opens once before the end: with a layer, where there are any.
+    return { received: receivedBytes, size: fileBytes, playable: playable && (arrivedLayers > 0 || layers === 0), complete };
   }
 
   /** Opens what has arrived. */

@@ -31,7 +31,7 @@ function valuesOf(mesh, name, time, options) {
     return undefined;
   const all = mesh.attribute(found.index, time, undefined, options), n = found.components;
   const values = n === 1 ? all : Float32Array.from({ length: all.length / n }, (_, i) => Math.hypot(...all.subarray(n * i, n * i + n)));
-  if (found.domain !== 'polygon')
+  if (found.domain !== 'polygons')
     return values;
   const { indices, trianglePolygons } = mesh, sums = new Float32Array(mesh.vertexCount), counts = new Uint32Array(mesh.vertexCount);
   for (let corner = 0; corner < indices.length; ++corner) {

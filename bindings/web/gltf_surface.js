@@ -16,7 +16,7 @@ export class GltfSurface {
     this.renderVertices = new Uint32Array(sourceVertexCount).fill(0xffffffff);
     sourceVertices.forEach((v, r) => { this.renderVertices[v] = r; });
     /** Texture coordinates and colours that move, by the names that glTF has for them. */
-    this.attributes = mesh.attributes.filter(({ name, domain, moves }) => moves && domain === 'vertex' && MOVING.test(name))
+    this.attributes = mesh.attributes.filter(({ name, domain, moves }) => moves && domain === 'vertices' && MOVING.test(name))
       .map(({ name, index, components }) => ({ name, index, components, values: new Float32Array(components * vertexCount) }));
   }
 

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 
+import type { AssetInfo, AttributeInfo as AttributeFields, Basis as BasisFields, Box, Hit as HitFields, Look as LookFields,
+  NamedClip as ClipFields, NamedTime, Part as PartFields, RootMotion, Sampling, Side, SurfaceFrame, Wrap } from './interface.js';
+
+export type { Box, NamedTime, RootMotion, Sampling, Side, SurfaceFrame, Wrap };
+
 /** An error of the decoder. `status` is a name of anicodec.h, such as ANIC_E_CHUNK_CHECKSUM. */
 export declare class AnicError extends Error {
   readonly status: string;
@@ -43,8 +48,8 @@ export interface OpenOptions {
 
 /** How times become positions. The default of wrap is what the file says: 'loop' or 'clamp'. */
 export interface SampleOptions {
-  sampling?: 'step' | 'linear' | 'cubic';
-  wrap?: 'clamp' | 'loop' | 'ping-pong';
+  sampling?: Sampling;
+  wrap?: Wrap;
   /** The clip that the time is of, by its name or number. Default: the first one that is open. */
   clip?: string | number;
   /** Moments that are faded in, one after the other: what is shown then counts 1 - weight. */
@@ -57,98 +62,21 @@ export interface Moment extends Omit<SampleOptions, 'blend'> {
   weight: number;
 }
 
-/** One of the clips of a file: what a file's character does. Fields as in ClipInfo. */
-export interface NamedClip {
+/** One of the clips of a file: what a file's character does. */
+export interface NamedClip extends ClipFields {
   readonly index: number;
-  readonly name: string;
-  /** Its frames in the file are firstFrame .. firstFrame + frames - 1. */
-  readonly firstFrame: number;
-  readonly frames: number;
-  readonly rate: number;
-  readonly rateAssumed: boolean;
-  readonly uneven: boolean;
-  readonly loop: boolean;
-  readonly closedLoop: boolean;
-  /** OpenOptions.clips names it, or all were opened. */
-  readonly isOpen: boolean;
-  readonly startTime: number;
-  readonly duration: number;
-  readonly loopDuration: number;
-  readonly diagonal: number;
-  readonly maxError: number;
-  readonly rmse: number;
-  readonly kg: number;
-  readonly maxDisplacementError: number;
   /** Named times, seconds from its first frame on. */
-  readonly events: readonly { readonly name: string; readonly seconds: number }[];
-}
-
-/** A turn about the up axis through the pivot, then a move along the ground. */
-export interface RootMotion {
-  /** Radians, counter-clockwise seen from above. */
-  turn: number;
-  move: [number, number, number];
-  pivot: [number, number, number];
-  /** The same as one map, 3 x 4, row-major. */
-  matrix: number[];
-}
-
-export interface Box {
-  min: [number, number, number];
-  max: [number, number, number];
+  readonly events: readonly NamedTime[];
 }
 
 /** Name, clock and errors are those of the first clip of the file: Clip.clips has those of each. */
-export interface ClipInfo {
-  readonly name: string;
-  /** Frames of all clips. */
-  readonly frames: number;
-  /** Frames per second. */
-  readonly rate: number;
-  /** The source told no rate. */
-  readonly rateAssumed: boolean;
-  /** Frames have times of their own: Clip.frameTime(). */
-  readonly uneven: boolean;
-  /** Meant to be looped. */
-  readonly loop: boolean;
-  /** The last frame repeats the first. */
-  readonly closedLoop: boolean;
-  /** Parts are missing or coarser: of a progressive clip that is not finished. */
-  readonly partial: boolean;
-  readonly startTime: number;
-  /** Seconds from the first frame to the last. */
-  readonly duration: number;
-  readonly loopDuration: number;
-  readonly up: 'y' | 'z' | undefined;
+export interface ClipInfo extends Omit<AssetInfo, 'meshes' | 'metresPerUnit'> {
   readonly metresPerUnit: number | undefined;
-  /**
-   * Point that positions count from: added in double precision, it gives the source's coordinates, which may be too far
-   * from zero for float32.
-   */
-  readonly origin: readonly [number, number, number];
-  /** The diagonal of the box around all frames of the source. */
-  readonly diagonal: number;
-  /** Largest distance of a vertex from its place in the source. */
-  readonly maxError: number;
-  readonly rmse: number;
-  /** KG error, per cent. */
-  readonly kg: number;
-  /** Largest error of a vertex' move from frame to frame. */
-  readonly maxDisplacementError: number;
-  readonly segments: number;
-  readonly residentBytes: number;
-  readonly contextBytes: number;
 }
 
-export interface AttributeInfo {
+/** Values beside the positions, as in frame 0. */
+export interface AttributeInfo extends Omit<AttributeFields, `${string}At` | 'labelCount'> {
   readonly index: number;
-  readonly name: string;
-  readonly kind: 'uv' | 'normal' | 'tangent' | 'colour' | 'custom' | 'material' | 'part';
-  readonly domain: 'vertex' | 'corner' | 'polygon';
-  readonly count: number;
-  readonly components: number;
-  /** Other frames have other values. */
-  readonly moves: boolean;
   /** Names, of materials and parts. */
   readonly labels: string[];
   /** For materials: the look that each label names, where the file has it. */
@@ -156,20 +84,7 @@ export interface AttributeInfo {
 }
 
 /** Values of a material, as glTF means them; colours are linear. Images are names, which the host loads. */
-export interface Look {
-  baseColour: [number, number, number, number];
-  metallic: number;
-  roughness: number;
-  emissive: [number, number, number];
-  alpha: 'opaque' | 'mask' | 'blend';
-  alphaCutoff: number;
-  doubleSided: boolean;
-  baseColourImage: string | undefined;
-  metallicRoughnessImage: string | undefined;
-  normalImage: string | undefined;
-  occlusionImage: string | undefined;
-  emissiveImage: string | undefined;
-}
+export type Look = Omit<LookFields, 'name' | `${string}Image`> & { readonly [Image in keyof LookFields & `${string}Image`]: string | undefined };
 
 /** Triangles of one material: indices start .. start + count - 1. */
 export interface Group {
@@ -180,42 +95,19 @@ export interface Group {
 }
 
 /** Data that a shader needs at a time, beside a Basis: anic_part of anicodec.h. Addresses are in the decoder's memory. */
-export interface Part {
-  segment: number;
-  share: number;
-  weightsAt: number;
-  shapeAt: number;
-  correctionsAt: number;
-  correctionCount: number;
-  /** 3 x 4, row by row. */
-  poseMap: Float64Array;
-  motion: Float64Array;
+export interface Part extends PartFields {
   /** Place of the pose maps of all regions, twelve float32 each; 0: the basis has no pose. */
-  poseMapsAt: number;
+  readonly poseMapsAt: number;
 }
 
 /** The resident basis of a segment: anic_basis of anicodec.h. */
-export interface Basis {
-  kind: 'keyframes' | 'eigenshapes' | 'eigentrajectories';
+export interface Basis extends Omit<BasisFields, `${string}At` | 'reconstruction' | 'target' | 'poseCount' | 'wideCount' | 'narrowCount'> {
   msgi: boolean;
   movesAttribute: boolean;
-  mesh: number;
-  attribute: number;
-  firstComponent: number;
-  firstFrame: number;
-  frameCount: number;
-  vertexCount: number;
-  components: number;
-  wideComponents: number;
-  channels: number;
-  weightChannels: number;
-  origin: [number, number, number];
   pose: Float32Array | null;
   wide: Int32Array | null;
   narrow: Int16Array | null;
   vertexShape: Uint32Array | null;
-  /** Regions of the surface, each with weights and a pose map of its own. */
-  regions: number;
   /** Region of each vertex; null: all are of region 0. */
   vertexRegion: Uint8Array | null;
 }
@@ -226,26 +118,16 @@ export interface SurfacePoint {
   weights: ArrayLike<number> & Iterable<number>;
 }
 
-export interface SurfaceFrame {
-  position: [number, number, number];
-  normal: [number, number, number];
-  tangent: [number, number, number];
-}
-
 export interface Ray {
   origin: Iterable<number>;
   direction: Iterable<number>;
   /** The distance that still counts, in lengths of the direction; 0: any. */
   farthest?: number;
   /** Triangles that count, by the side that the ray meets. */
-  side?: 'any' | 'front' | 'back';
+  side?: Side;
 }
 
-export interface Hit extends SurfacePoint {
-  /** From the origin, in lengths of the direction. */
-  distance: number;
-  /** Its number in `indices`. */
-  triangle: number;
+export interface Hit extends SurfacePoint, Omit<HitFields, 'point' | 'side'> {
   vertices: number[];
   weights: number[];
   side: 'front' | 'back';
@@ -319,10 +201,10 @@ export declare class Clip {
   /** Time of a frame of the file, in seconds from the first one of its clip. */
   frameTime(frame: number): number;
   /** The motion of the whole at a time, part of the positions or not (OpenOptions.inPlace); none where it is not apart. */
-  rootMotion(time: number, options?: { clip?: string | number; sampling?: 'step' | 'linear' | 'cubic'; wrap?: 'clamp' | 'loop' | 'ping-pong' }): RootMotion;
+  rootMotion(time: number, options?: { clip?: string | number; sampling?: Sampling; wrap?: Wrap }): RootMotion;
   /** The step of a character from one time to another, through any number of turns of a loop: a turn, and a move in the axes
    * that it has at `from`; no pivot. */
-  rootStep(from: number, to: number, options?: { clip?: string | number; sampling?: 'step' | 'linear' | 'cubic'; wrap?: 'clamp' | 'loop' | 'ping-pong' }): RootMotion;
+  rootStep(from: number, to: number, options?: { clip?: string | number; sampling?: Sampling; wrap?: Wrap }): RootMotion;
   verify(): void;
   basis(segment: number): Basis;
   close(): void;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 import { Clip } from './clip.js';
 import { Decoder } from './decoder.js';
+import { BOX } from './interface.js';
 import { Opening, unpackError } from './opening.js';
 import { isNode, loadModule, provideModule } from './module.js';
 import { AnicError } from './status.js';
@@ -248,8 +249,7 @@ export function readMetadata(file) {
 export function readBounds(file, { mesh = 0, firstFrame = 0, frames = 0 } = {}) {
   return unopened(file, (decoder, at, size) => {
     decoder.call('read_bounds', at, size, mesh, firstFrame, frames);
-    const box = [...decoder.numbers(6)];
-    return { min: box.slice(0, 3), max: box.slice(3) };
+    return decoder.read(BOX);
   });
 }
 

@@ -8,8 +8,8 @@ const MAGIC = Uint8Array.of(0x89, 0x41, 0x4e, 0x49);
 
 /** Attributes of a mesh of a clip that glTF has names for: [name, attribute]. */
 function named(mesh) {
-  const uvs = mesh.attributes.filter((a) => a.kind === 'uv' && a.components === 2 && a.domain !== 'polygon');
-  const colour = mesh.attributes.find((a) => a.kind === 'colour' && a.components >= 3 && a.domain !== 'polygon');
+  const uvs = mesh.attributes.filter((a) => a.kind === 'uv' && a.components === 2 && a.domain !== 'polygons');
+  const colour = mesh.attributes.find((a) => a.kind === 'colour' && a.components >= 3 && a.domain !== 'polygons');
   return [...uvs.map((a, i) => [`TEXCOORD_${i}`, a]), ...(colour ? [['COLOR_0', colour]] : [])];
 }
 

@@ -38,8 +38,8 @@ class Part {
   constructor(mesh, device) {
     const n = mesh.vertexCount, faces = mesh.triangleCount > 0, type = faces ? PRIMITIVE_TRIANGLES : PRIMITIVE_POINTS;
     Object.assign(this, { mesh, type, positions: new Float32Array(3 * n), normals: faces ? new Float32Array(3 * n) : undefined });
-    this.colour = mesh.attributes.find((a) => a.kind === 'colour' && a.components >= 3 && a.domain !== 'polygon');
-    this.uvs = mesh.attributes.filter((a) => a.kind === 'uv' && a.components === 2 && a.domain !== 'polygon').slice(0, 2);
+    this.colour = mesh.attributes.find((a) => a.kind === 'colour' && a.components >= 3 && a.domain !== 'polygons');
+    this.uvs = mesh.attributes.filter((a) => a.kind === 'uv' && a.components === 2 && a.domain !== 'polygons').slice(0, 2);
     const made = new Mesh(device);
     made.clear(true, false);
     made.setPositions(this.positions);

@@ -74,8 +74,8 @@ function geometryOf(mesh) {
 
 /** Attributes of a clip's mesh that three.js has names for: [name, attribute]. */
 function namedAttributes(mesh) {
-  const uvs = mesh.attributes.filter((a) => a.kind === 'uv' && a.components >= 2 && a.domain !== 'polygon').slice(0, 4);
-  const colour = mesh.attributes.find((a) => a.kind === 'colour' && a.components >= 3 && a.domain !== 'polygon');
+  const uvs = mesh.attributes.filter((a) => a.kind === 'uv' && a.components >= 2 && a.domain !== 'polygons').slice(0, 4);
+  const colour = mesh.attributes.find((a) => a.kind === 'colour' && a.components >= 3 && a.domain !== 'polygons');
   return [...uvs.map((a, i) => [i === 0 ? 'uv' : `uv${i}`, a]), ...(colour ? [['color', colour]] : [])];
 }
 

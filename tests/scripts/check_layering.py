@@ -35,7 +35,7 @@ ALLOWED = {
     "tools/io": ['"tools/io/', '"codec/sequence/', '"codec/parallel/', '"sdk/', '"format/', "<fmt/", "<nlohmann/", *POSIX],
     "bindings/python": ['"bindings/python/', '"codec/', '"tools/commands/command_line.h"', "<anicodec/", "<nanobind/"],
     "bindings/usd": ['"bindings/usd/', "<anicodec/", "<pxr/", "<dlfcn.h>", "<link.h>", "<unistd.h>"],
-    "bindings/web": ["<anicodec/", "<stdlib.h>", "<string.h>"],
+    "bindings/web": ['"bindings/web/', "<anicodec/", "<stddef.h>", "<stdlib.h>", "<string.h>"],
     "bindings/engines/ogre": ['"bindings/engines/ogre/', "<anicodec/", "<Ogre"],
     # By names alone, as Unreal's modules find headers.
     "bindings/engines/unreal": ['"', "<anicodec/"],
