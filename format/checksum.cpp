@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "format/checksum.h"
 
+#include "format/compiler.h"
+
 #include <new>
 
 #include <xxhash.h>
@@ -19,6 +21,9 @@ IntegerHash::IntegerHash() {
 
 void IntegerHash::add(const int32_t* values, size_t count) {
   auto* state = reinterpret_cast<XXH64_state_t*>(state_);
+#if !defined(ANICODEC_BIG_ENDIAN)
+  XXH64_update(state, values, count * sizeof *values);
+#else
   uint8_t piece[1024];
   for (size_t i = 0; i < count;) {
     size_t n = 0;
@@ -29,6 +34,7 @@ void IntegerHash::add(const int32_t* values, size_t count) {
     }
     XXH64_update(state, piece, n);
   }
+#endif
 }
 
 uint64_t IntegerHash::digest() const {

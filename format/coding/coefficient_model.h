@@ -8,6 +8,7 @@
 #include "format/coding/binary_coder.h"
 #include "format/coding/magnitude_class.h"
 #include "format/coding/symbol_row.h"
+#include "format/compiler.h"
 #include "format/memory.h"
 
 #include <algorithm>
@@ -148,6 +149,8 @@ class CoefficientModel {
   static constexpr int kMostSign = 20;
   static constexpr int16_t kSignWeights[kNear] = {4, 2, 2, 2, 0, 0, 0, 0};
 
+  typedef int16_t Signs ANICODEC_VECTOR(2 * kNear);
+
   struct Batch {
     Vertex vertices[kBatch];
     alignas(16) int16_t features[kFeatures][kBatch];
@@ -161,7 +164,7 @@ class CoefficientModel {
   static uint32_t magnitude_of(int32_t q) { return static_cast<uint32_t>(q < 0 ? -q : q); }
 
   /// Mean magnitude of the neighbours' residuals.
-  uint32_t near_of(uint32_t r) const { return (near_[r] * near_scale_) >> 13; }
+  ANICODEC_INLINE uint32_t near_of(uint32_t r) const { return (near_[r] * near_scale_) >> 13; }
 
   /// Expectations of a batch: of each vertex the mean magnitude of its neighbours, and its own
   /// running means, in 1/16.
@@ -191,7 +194,7 @@ class CoefficientModel {
 
   /// The context of a vertex: magnitudes around it, its own means, that of the batches
   /// before, and its own by how large its neighbours are now and were.
-  void set_features(uint32_t r, size_t stride, int16_t* to) const {
+  ANICODEC_INLINE void set_features(uint32_t r, size_t stride, int16_t* to) const {
     const uint32_t near = near_of(r);
     const auto past = static_cast<uint32_t>(past_[r]), around = static_cast<uint32_t>(around_[r]);
     to[0] = static_cast<int16_t>(near);
@@ -202,14 +205,15 @@ class CoefficientModel {
         static_cast<int16_t>(std::min((past + 4) * (near + 2) / (around + 4), uint32_t{INT16_MAX}));
   }
 
-  uint32_t expected_of(const int16_t* features, size_t stride) const {
+  ANICODEC_INLINE uint32_t expected_of(const int16_t* features, size_t stride) const {
     uint32_t sum = 0;
     for (size_t k = 0; k < kFeatures; ++k)
       sum += static_cast<uint32_t>(features[k * stride] * share_[k]);
     return std::min(sum >> 13, uint32_t{INT16_MAX});
   }
 
-  Vertex classes_of(const int16_t* features, size_t stride, uint32_t expected) const {
+  ANICODEC_INLINE Vertex classes_of(const int16_t* features, size_t stride,
+                                    uint32_t expected) const {
     const auto class_of = [&](size_t k, int shift) {
       return magnitude_class<1>(static_cast<uint32_t>(features[k * stride]) >> shift, kClasses);
     };
@@ -274,24 +278,27 @@ class CoefficientModel {
     int8_t* signs = sign_.data() + size_t{c} * (ranks_ + 1) + 1;
     const int32_t* n = neighbours_ + size_t{r} * stride_;
     int16_t* agree = &agreement_[size_t{r} * kNear];
-    int16_t near[kNear];
-    for (uint32_t a = 0; a < kNear; ++a)
-      near[a] = signs[n[a]];
+    const auto sign_of = [&](size_t a) -> int16_t { return signs[n[a]]; };
+    const Signs near = {sign_of(0), sign_of(1), sign_of(2), sign_of(3),
+                        sign_of(4), sign_of(5), sign_of(6), sign_of(7)};
+    Signs agreement, by_place;
+    ANICODEC_COPY(&agreement, agree, sizeof agreement);
+    ANICODEC_COPY(&by_place, kSignWeights, sizeof by_place);
+    const Signs votes = near * (agreement + by_place);
     int agreed = 0;
-    for (uint32_t a = 0; a < kNear; ++a)
-      agreed += near[a] * (agree[a] + kSignWeights[a]);
+    ANICODEC_UNROLL for (uint32_t a = 0; a < kNear; ++a) agreed += votes[a];
     negative = coder.bit(signs_[sign_class(agreed)], negative);
     const auto own = static_cast<int16_t>(negative ? -14 : 14);
-    for (uint32_t a = 0; a < kNear; ++a)
-      agree[a] = static_cast<int16_t>(agree[a] - (agree[a] >> 3) + own * near[a]);
+    agreement += own * near - (agreement >> 3);
+    ANICODEC_COPY(agree, &agreement, sizeof agreement);
     signs[r] = negative ? -1 : 1;
     return negative;
   }
 
   /// Adds a magnitude to those of the neighbours of later vertices.
-  void set_magnitude(uint32_t r, uint32_t magnitude) {
+  ANICODEC_INLINE void set_magnitude(uint32_t r, uint32_t magnitude) {
     magnitude_[r] = static_cast<uint8_t>(magnitude);
-    for (uint32_t i = dependent_start_[r]; i < dependent_start_[r + 1]; ++i) {
+    for (uint32_t i = dependent_start_[r], end = dependent_start_[r + 1]; i < end; ++i) {
       uint16_t& near = near_[dependents_[i]];
       near = static_cast<uint16_t>(near + dependent_weights_[i] * magnitude);
     }

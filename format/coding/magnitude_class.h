@@ -6,6 +6,7 @@
 #define ANICODEC_FORMAT_CODING_MAGNITUDE_CLASS_H_
 
 #include "format/coding/symbol_model.h"
+#include "format/compiler.h"
 
 #include <cstdint>
 
@@ -14,7 +15,7 @@ namespace anicodec {
 /// 1 << kPerOctaveBits classes per octave, one per value at the start: 0, 1, 2, ... At most count
 /// - 1.
 template <int kPerOctaveBits>
-constexpr uint32_t magnitude_class(uint32_t x) {
+ANICODEC_INLINE constexpr uint32_t magnitude_class(uint32_t x) {
   if (x < (1u << kPerOctaveBits))
     return x;
   const int e = floor_log2(x) - kPerOctaveBits;
@@ -22,7 +23,7 @@ constexpr uint32_t magnitude_class(uint32_t x) {
 }
 
 template <int kPerOctaveBits>
-constexpr uint32_t magnitude_class(uint32_t x, uint32_t count) {
+ANICODEC_INLINE constexpr uint32_t magnitude_class(uint32_t x, uint32_t count) {
   const uint32_t c = magnitude_class<kPerOctaveBits>(x);
   return c < count ? c : count - 1;
 }

@@ -11,6 +11,7 @@
 
 #include "format/bytes.h"
 #include "format/coding/binary_coder.h"
+#include "format/compiler.h"
 #include "format/memory.h"
 
 #include <array>
@@ -125,9 +126,9 @@ class RansDecoder {
   bool finish() const;
 
  private:
-  uint32_t& next() { return states_[turn_++ % kRansStates]; }
+  ANICODEC_INLINE uint32_t& next() { return states_[turn_++ % kRansStates]; }
 
-  void advance(uint32_t& state, uint32_t start, uint32_t size) {
+  ANICODEC_INLINE void advance(uint32_t& state, uint32_t start, uint32_t size) {
     state = size * (state / kSymbolScale) + state % kSymbolScale - start;
     if (state < kRansStart) {
       uint32_t word = 0;

@@ -88,7 +88,7 @@ struct PlainRows {
     return s;
   }
 
-  static void learn(SymbolRow& row, uint32_t s) {
+  static ANICODEC_INLINE void learn(SymbolRow& row, uint32_t s) {
     const uint16_t seen = row.v[kRowEscape];
     for (uint32_t i = 0; i < kRowEscape; ++i) {
       const int32_t error = (s <= i ? 32767 : 0) - int32_t{row.v[i]};
@@ -132,7 +132,7 @@ struct VectorRows {
     return static_cast<uint32_t>(lowest_bit(mask)) / 2;
   }
 
-  static void learn(SymbolRow& row, uint32_t s) {
+  static ANICODEC_INLINE void learn(SymbolRow& row, uint32_t s) {
     const __m128i old = load(row.v);
     const int seen = _mm_extract_epi16(old, 7);
     const __m128i index = _mm_set_epi16(-1, 6, 5, 4, 3, 2, 1, 0);
@@ -193,7 +193,7 @@ struct VectorRows {
     return static_cast<uint32_t>(lowest_bit(wasm_i16x8_bitmask(above) | 1U << 7));
   }
 
-  static void learn(SymbolRow& row, uint32_t s) {
+  static ANICODEC_INLINE void learn(SymbolRow& row, uint32_t s) {
     const v128_t old = wasm_v128_load(row.v);
     const uint32_t seen = wasm_u16x8_extract_lane(old, 7);
     const v128_t index = wasm_i16x8_make(0, 1, 2, 3, 4, 5, 6, -1);
@@ -212,6 +212,13 @@ struct VectorRows {
 #else
 using VectorRows = PlainRows;
 #endif
+
+/// Three rows learn from a symbol, one after the other: they may be the same.
+inline void learn_rows(SymbolRow& a, SymbolRow& b, SymbolRow& c, uint32_t s) {
+  VectorRows::learn(a, s);
+  VectorRows::learn(b, s);
+  VectorRows::learn(c, s);
+}
 
 /// The distribution that codes the next symbol: the mean of row a, and of the mean of b and c.
 class SymbolDistribution {
@@ -237,11 +244,8 @@ template <class Coder>
 ANICODEC_INLINE uint32_t code_row_symbol(Coder& coder, SymbolRow& a, SymbolRow& b, SymbolRow& c,
                                          uint32_t s) {
   s = coder.symbol(SymbolDistribution(a, b, c), s);
-  if constexpr (Coder::kAdapts) {
-    VectorRows::learn(a, s);
-    VectorRows::learn(b, s);
-    VectorRows::learn(c, s);
-  }
+  if constexpr (Coder::kAdapts)
+    learn_rows(a, b, c, s);
   return s;
 }
 

@@ -72,6 +72,7 @@ class BatchDecoder {
   void run(size_t first, size_t count) {
     first_ = first;
     count_ = count;
+    solver_.begin();
     if (job_.continued) {
       solver_.continue_from(job_.continued + first, job_.vertices, count);
     } else {
@@ -87,8 +88,11 @@ class BatchDecoder {
         const bool refits = next_refit < job_.refit_count;
         if (refits && job_.refits[next_refit] < end)
           stop = job_.refits[next_refit];
-        for (size_t t = s; t < stop; ++t)
-          reconstruct(t, t - begin);
+        size_t t = s;
+        for (; t + 2 <= stop; t += 2)
+          reconstruct<2>(t, t - begin);
+        if (t < stop)
+          reconstruct<1>(t, t - begin);
         if (refits || job_.learnt) {
           solver_.accumulate(x_ + (s - begin), residual_ + (s - begin), job_.omega + s, stop - s);
           if (refits && stop == job_.refits[next_refit]) {
@@ -138,8 +142,9 @@ class BatchDecoder {
           ANICODEC_UNROLL for (size_t l = 0; l < kTile; ++l) tile[l] =
               *reinterpret_cast<const UnalignedTile*>(rows[l] + s);
           transpose(tile);
+          Float* const to = &x_[s][a];
           ANICODEC_UNROLL for (size_t e = 0; e < kTile; ++e)
-              ANICODEC_COPY(part_of(x_[s + e][a], part), &tile[e], sizeof(Tile));
+              ANICODEC_COPY(part_of(to[e * M], part), &tile[e], sizeof(Tile));
         }
       }
     }
@@ -179,13 +184,24 @@ class BatchDecoder {
     return ANICODEC_CONVERT(v, Float);
   }
 
-  void reconstruct(size_t s, size_t in_window) {
+  /// N samples together, whose sums do not wait for one another.
+  template <size_t N>
+  ANICODEC_INLINE void reconstruct(size_t s, size_t in_window) {
     const Float* x = x_[in_window];
-    Float p{}, p0{};
-    for (size_t a = 0; a < solver_.n; ++a) {
-      p += solver_.weights[a] * x[a];
-      p0 += solver_.prior[a] * x[a];
+    Float p[N]{}, p0[N]{};
+    for (size_t a = 0; a < solver_.n; ++a, ++x) {
+      const Float w = solver_.weights[a], w0 = solver_.prior[a];
+      ANICODEC_UNROLL for (size_t e = 0; e < N; ++e) {
+        p[e] += w * x[e * M];
+        p0[e] += w0 * x[e * M];
+      }
     }
+    for (size_t e = 0; e < N; ++e)
+      finish(s + e, in_window + e, p[e], p0[e]);
+  }
+
+  /// A sample from its prediction, and from that of the prior.
+  void finish(size_t s, size_t in_window, Float p, Float p0) {
     const Float q = s < job_.wide_samples
                         ? load(job_.wide + s * job_.vertices + first_)
                         : load(job_.narrow + (s - job_.wide_samples) * job_.vertices + first_);
