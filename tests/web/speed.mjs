@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// node speed.mjs CLIP.anic [RUNS] [INSTANCES]: opening and playing in Node: processor time of the first opening, which compiles, the best
-// of the others, and the best time for a frame at its positions. To be compared with `anicodec_bench decode` of the same minute.
-// Then, with Chromium, the engines: bytes of the package that a page loads (minified, brotli), milliseconds from nothing to a clip that
-// is shown, microseconds of script for a frame with its normals; medians. Then a crowd of three.js on the graphics card.
+// node speed.mjs CLIP.anic [RUNS] [INSTANCES]: processor time of opening and of a frame at its positions, in Node, in Chromium and in native
+// code, in turns: that of `native_speed`, which `cmake --build build/test --target native_speed` makes, if ANICODEC_NATIVE_SPEED names it. Also
+// the first opening in Node, which compiles. Then, with Chromium, the engines: bytes of the package that a page loads (minified, brotli),
+// milliseconds from nothing to a clip that is shown, microseconds of script for a frame with its normals; medians. Then a crowd of three.js on
+// the graphics card.
+import { execFileSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { brotliCompressSync } from 'node:zlib';
@@ -12,23 +14,71 @@ import { Anicodec } from '../../bindings/web/index.js';
 import { babylonImports, babylonScripts, pageOf, playcanvasImports, threeImports } from './engines.mjs';
 import { CHROMIUM, launch, serve, withPage } from './serve.mjs';
 
-const [file, runs = 30, instances = 1000] = process.argv.slice(2), bytes = new Uint8Array(readFileSync(file)), times = { open: [], play: [] };
+const [file, runs = 30, instances = 1000] = process.argv.slice(2), bytes = new Uint8Array(readFileSync(file));
+const best = (list) => Math.min(...list), median = (list) => list.sort((a, b) => a - b)[list.length >> 1];
+const TRIES = 3;  // of each in a turn, the best of which counts
 const processor = () => { const { user, system } = process.cpuUsage(); return (user + system) / 1000; };
-let clip;
-for (let run = 0; run < Number(runs); ++run) {
-  const before = processor();
-  clip = await Anicodec.open(bytes, { bounds: false });
-  times.open.push(processor() - before);
+
+/** Opens the clip here or in a page, in this thread. */
+async function openOnce() {
+  globalThis.speed ??= { ...await import('anicodec'), bytes: new Uint8Array(await (await fetch('/clip')).arrayBuffer()) };
+  globalThis.speed.clip = await globalThis.speed.Anicodec.open(globalThis.speed.bytes, { bounds: false, worker: false });
+  return globalThis.speed.clip.frames;
 }
-const [mesh] = clip.meshes, out = new Float32Array(3 * mesh.sourceVertexCount);
-for (let run = 0; run < 20; ++run) {
-  const before = performance.now();
+
+/** Makes all frames of the clip that is open. */
+function playOnce() {
+  const { clip } = globalThis.speed, [mesh] = clip.meshes, out = globalThis.speed.out ??= new Float32Array(3 * mesh.sourceVertexCount);
   for (let f = 0; f < clip.frames; ++f)
     mesh.sourcePositions(clip.frameTime(f), out, { sampling: 'step' });
-  times.play.push((performance.now() - before) / clip.frames);
 }
-const best = (list) => Math.min(...list), median = (list) => list.sort((a, b) => a - b)[list.length >> 1];
-console.log(`${file}: opened in ${times.open[0].toFixed(0)} ms of processor time, then in ${best(times.open).toFixed(0)} ms; ${(1000 * best(times.play)).toFixed(0)} us a frame`);
+
+/** A turn of what `run` runs and `clock` times, both ms: of an opening, ms, and of a frame, us. */
+async function turn(run, clock) {
+  const timed = async (work) => {
+    const times = [];
+    let result;
+    for (let i = 0; i < TRIES; ++i) {
+      const before = await clock();
+      result = await run(work);
+      times.push(await clock() - before);
+    }
+    return [best(times), result];
+  };
+  const [open, frames] = await timed(openOnce), [play] = await timed(playOnce);
+  return { open, frame: 1000 * play / frames };
+}
+
+/** The processor time that the page's thread has taken. */
+async function clockOf(page) {
+  const session = await page.context().newCDPSession(page);
+  await session.send('Performance.enable', { timeDomain: 'threadTicks' });
+  return async () => 1000 * (await session.send('Performance.getMetrics')).metrics.find(({ name }) => name === 'TaskDuration').value;
+}
+
+/** Prints times of native code, Node and a page of Chromium, and medians of their ratios in `turns`. */
+async function compare(page, turns) {
+  globalThis.speed = { Anicodec, bytes };
+  const native = process.env.ANICODEC_NATIVE_SPEED, clock = page && await clockOf(page), before = processor();
+  await openOnce();
+  const first = processor() - before;
+  const ways = {
+    ...(native && { native: () => JSON.parse(execFileSync(native, [file, `${TRIES}`])) }),
+    Node: () => turn((work) => work(), processor),
+    ...(page && { Chromium: () => turn((work) => page.evaluate(work), clock) }),
+  };
+  const times = Object.fromEntries(Object.keys(ways).map((name) => [name, []]));
+  for (let i = 0; i < 2 * turns; ++i) {
+    for (const [name, way] of Object.entries(ways))
+      times[name].push(await way());
+  }
+  // The first half compiles the functions that take time once more.
+  const half = (name) => times[name].slice(turns), cell = (name, key, digits) => median(half(name).map((one) => one[key])).toFixed(digits);
+  const ratio = (name, key) => (native ? median(half(name).map((one, i) => one[key] / half('native')[i][key])).toFixed(2) : '-');
+  console.log(`${file}, the first opening in Node: ${first.toFixed(0)} ms\n\n| | opening, ms | x native | frame, us | x native |\n|---|---|---|---|---|`);
+  for (const name of Object.keys(ways))
+    console.log(`| ${name} | ${cell(name, 'open', 1)} | ${ratio(name, 'open')} | ${cell(name, 'frame', 1)} | ${ratio(name, 'frame')} |`);
+}
 
 /** Bytes of a module of the package with all that it imports of it, and of the worker. */
 async function shipped(module) {
@@ -110,13 +160,16 @@ const ENGINES = [
   ['three', 'three.js', 'three.js', threeImports, '', 'node_modules/three'], ['babylon', 'Babylon.js', 'babylon.js', babylonImports(), babylonScripts, 'babylon/node_modules/babylonjs'],
   ['playcanvas', 'PlayCanvas', 'playcanvas.js', playcanvasImports, '', 'pages/node_modules/playcanvas'], ['react', 'React', 'react.js'],
 ];
+const turns = Math.max(3, Math.ceil(Number(runs) / TRIES / 2));
 if (!CHROMIUM) {
-  console.log('There is no Chromium for the engines');
+  await compare(undefined, turns);
+  console.log('There is no Chromium');
   process.exit();
 }
 const wasm = brotliCompressSync(readFileSync(new URL('../../bindings/web/dist/anicodec.wasm', import.meta.url))).length;
 const server = await serve({ '/clip': bytes, ...Object.fromEntries(ENGINES.filter(([, , , imports]) => imports).map(([name, , , imports, scripts]) => [`/${name}`, pageOf(imports, scripts)])) });
 const browser = await launch();
+await withPage(async (page) => { await page.goto(`${server.url}/three`); await compare(page, turns); }, { browser });
 console.log(`\n| engine | scripts, bytes | decoder, bytes | clip, bytes | shown after, ms | script a frame, us |\n|---|---|---|---|---|---|`);
 for (const [name, title, module, imports, , needs] of ENGINES) {
   const results = [], installed = imports && existsSync(new URL(needs, import.meta.url));
