@@ -19,7 +19,8 @@ Vector<float> cutting_pose(const Clip& clip, uint32_t mesh) {
   if (track.begin == track.end || !has_larger_polygons(clip.meshes()[mesh].topology))
     return pose;
   pose.resize(size_t{3} * clip.vertex_count(mesh));
-  clip.positions(mesh, clip.segments()[clip.by_frame()[track.begin]].first_frame, pose.data());
+  show_positions(clip, mesh, clip.segments()[clip.by_frame()[track.begin]].first_frame,
+                 pose.data());
   return pose;
 }
 

@@ -45,7 +45,7 @@ NormalPlan plan_normals(const Clip& clip, uint32_t mesh, const anic_normal_plan_
   const UnitQuaternion turn = exp_rotation({{degrees * 3.14159265358979323846 / 180, 0, 0}});
   const double cosine = degrees < 180 ? 2 * turn.w * turn.w - 1 : -2;
   Vector<float> pose(size_t{3} * clip.vertex_count(mesh));
-  clip.positions(mesh, options.reference_frame, pose.data());
+  show_positions(clip, mesh, options.reference_frame, pose.data());
   return plan_normals(of.topology, pose.data(), cosine, per_corner);
 }
 

@@ -101,7 +101,7 @@ anic_status anic_create_render_plan(const anic_asset* asset, uint32_t mesh,
       Vector<float> pose;  // triangles need none
       if (has_larger_polygons(of.topology)) {
         pose.resize(size_t{3} * made->vertices);
-        asset->clip.positions(mesh, wanted.reference_frame, pose.data());
+        show_positions(asset->clip, mesh, wanted.reference_frame, pose.data());
       }
       made->plan =
           plan_rendering(of.topology, plan_normals(asset->clip, mesh, normals), corner_values(of),

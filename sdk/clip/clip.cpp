@@ -9,7 +9,6 @@
 #include "sdk/clip/kept_meshes.h"
 #include "sdk/clip/memory_estimate.h"
 #include "sdk/exact/exact_positions.h"
-#include "sdk/play/attribute_values.h"
 #include "sdk/play/play.h"
 #include "sdk/segment/keep_frames.h"
 
@@ -229,34 +228,6 @@ FrameState Clip::state_of(const Segment& segment, uint32_t frame) const {
   if (has_root())
     move_whole(root_at(segment.first_frame + frame).affine(root_.axes()), &state);
   return state;
-}
-
-void Clip::take_clip(uint32_t clip) {
-  Vector<uint8_t> only(clips().size(), 0);
-  only[clip] = 1;
-  const uint32_t begin = clips()[clip].first_frame;
-  for (size_t i = 0; i < segments_.size(); ++i) {
-    Limits::Segment& sizes = limits_.segments[i];
-    Segment& segment = segments_[i];
-    const FrameRange kept = wanted_frames(record_, only, sizes);
-    if (segment.frames > 0 && kept.count > 0 && kept.count < segment.frames)
-      keep_frames(sizes.first_frame + kept.first - segment.first_frame, kept.count, &segment);
-    if (kept.count == 0)  // the order of the first frames must stay
-      segment = Segment();
-    const bool before = sizes.first_frame < begin;
-    sizes.first_frame = segment.first_frame = kept.count > 0
-                                                  ? sizes.first_frame + kept.first - begin
-                                              : before ? 0
-                                                       : UINT32_MAX;
-    sizes.frames = kept.count;
-  }
-  root_.take_clip(clip);
-  limits_.root_frames = root_.holds(0) != 0 ? record_.clips[clip].frames : 0;
-  record_.clips = Vector<ClipRecord>(1, ClipRecord(record_.clips[clip]));
-  record_.place();
-  wanted_.assign(1, 1);
-  limits_.frames = record_.clips[0].frames;
-  limits_.clip_frames.assign(1, limits_.frames);
 }
 
 uint32_t Clip::clip_at(uint32_t frame) const {
@@ -670,36 +641,6 @@ Failure Clip::check_hashes() const {
       return {Status::kHash, 0, chunk_type("DIFF"), "a segment decodes to other positions"};
   }
   return {};
-}
-
-Status Clip::attribute_values(uint32_t mesh, uint32_t attribute, uint32_t frame, float* out) const {
-  if (frame >= frame_count())
-    return Status::kFrameRange;
-  if (mesh >= meshes_.size() || attribute >= meshes_[mesh].attributes.size() ||
-      meshes_[mesh].attributes[attribute].header.components() == 0)
-    return Status::kArgument;
-  const MeshAttribute& still = meshes_[mesh].attributes[attribute];
-  std::copy(still.values.begin(), still.values.end(), out);
-  const auto [first, last] = attribute_tracks(mesh, attribute);
-  for (uint32_t t = first; t < last; ++t) {
-    if (const Segment* segment = segment_at(t, frame))
-      add_motion(frame_state(*segment, frame - segment->first_frame), 1, still.header.components(),
-                 0, segment->vertices, out);
-  }
-  return Status::kOk;
-}
-
-Status Clip::positions(uint32_t mesh, uint32_t frame, float* out) const {
-  if (frame >= frame_count())
-    return Status::kFrameRange;
-  const Segment* segment = segment_at(mesh, frame);
-  if (!segment)
-    return Status::kAbsent;
-  FrameState state = state_of(*segment, frame - segment->first_frame);
-  Vector<float> shape(shape_size(*segment)), scratch(shape_scratch_size(*segment));
-  make_shape(&state, shape.data(), scratch.data());
-  play(state, 0, segment->vertices, out);
-  return Status::kOk;
 }
 
 }  // namespace anicodec

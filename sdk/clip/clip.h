@@ -110,10 +110,6 @@ class Clip {
   /// The same for a file whose header and table have been read.
   Failure open(const ContainerReader& file, const OpenOptions& options);
 
-  /// Makes the clip at hand the only one: frames are numbered from its first one on, and those of
-  /// others are given back. For programs that work on one clip of a file. O(what is resident).
-  void take_clip(uint32_t clip);
-
   const Limits& limits() const { return limits_; }
 
   /// The file's record of itself and of its clips, opened or not.
@@ -168,16 +164,6 @@ class Clip {
   /// The input of play() for a frame, counted in a segment of positions, with the motion of the
   /// whole if the positions include it.
   FrameState state_of(const Segment& segment, uint32_t frame) const;
-
-  /// Positions of all vertices of a mesh in one frame, in the order of the clip, three floats each.
-  /// Errors: kFrameRange; kAbsent when no segment of the mesh holds the frame. Cost: O(vertices x
-  /// components), the same for every frame. Allocates nothing, but in a segment of MSGI; where
-  /// frames are played one after the other, make_sample() allocates nothing there either.
-  Status positions(uint32_t mesh, uint32_t frame, float* out) const;
-
-  /// Values of an attribute of numbers in one frame, elements x components, moving or not. Errors:
-  /// kFrameRange, kArgument: no such attribute. Cost: as positions(), for each track.
-  Status attribute_values(uint32_t mesh, uint32_t attribute, uint32_t frame, float* out) const;
 
   /// Whether something had not arrived: segments have no frames, fewer components than options
   /// asked for, or no corrections.

@@ -93,15 +93,6 @@ RootState RootMotion::at(uint32_t clip, uint32_t frame) const {
   return state;
 }
 
-void RootMotion::take_clip(uint32_t clip) {
-  if (empty())
-    return;
-  clips_ = Vector<RootRecord::Clip>(1, RootRecord::Clip(clips_[clip]));
-  RootSeries series = std::move(series_[clip]);
-  series_ = Vector<RootSeries>(1);
-  series_[0] = std::move(series);
-}
-
 size_t RootMotion::resident_bytes() const {
   size_t total = clips_.size() * sizeof(RootRecord::Clip) + series_.size() * sizeof(RootSeries);
   each_series([&](const int32_t*, size_t count) { total += sizeof(int32_t) * count; });

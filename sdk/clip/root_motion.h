@@ -49,9 +49,6 @@ class RootMotion {
   /// Root motion at a frame, counted within the clip.
   RootState at(uint32_t clip, uint32_t frame) const;
 
-  /// Makes the clip at hand the only one.
-  void take_clip(uint32_t clip);
-
   /// Calls visit(values, count) for each series.
   template <class Visit>
   void each_series(Visit visit) const {

@@ -64,6 +64,18 @@ FrameState mean_state(const Group& group, uint32_t components, float* weights) {
   return state;
 }
 
+/// Calls use(sample of one frame of a track), if the track has the frame.
+template <class Use>
+void with_sample(const Clip& clip, uint32_t track, uint32_t frame, Use use) {
+  const Segment* segment = clip.segment_at(track, frame);
+  if (!segment)
+    return;
+  FrameMix mix;
+  mix.add(frame, 1);
+  Vector<float> shape(shape_size(*segment)), scratch(shape_scratch_size(*segment));
+  use(make_sample(clip, track, mix, shape.data(), scratch.data()));
+}
+
 }  // namespace
 
 size_t mixed_floats(const Segment& segment) {
@@ -180,6 +192,38 @@ void Sample::positions(uint32_t first, uint32_t vertices, const VertexOutput& ou
     rest.data = static_cast<unsigned char*>(rest.data) + rest.stride * n;
     first = stop;
   }
+}
+
+Status show_positions(const Clip& clip, uint32_t mesh, uint32_t frame, float* out) {
+  if (frame >= clip.frame_count())
+    return Status::kFrameRange;
+  Status status = Status::kAbsent;
+  with_sample(clip, mesh, frame, [&](const Sample& sample) {
+    VertexOutput output;
+    output.data = out;
+    sample.positions(0, clip.vertex_count(mesh), output);
+    status = Status::kOk;
+  });
+  return status;
+}
+
+Status show_attribute(const Clip& clip, uint32_t mesh, uint32_t attribute, uint32_t frame,
+                      float* out) {
+  if (frame >= clip.frame_count())
+    return Status::kFrameRange;
+  if (mesh >= clip.meshes().size() || attribute >= clip.meshes()[mesh].attributes.size() ||
+      clip.meshes()[mesh].attributes[attribute].header.components() == 0)
+    return Status::kArgument;
+  const MeshAttribute& still = clip.meshes()[mesh].attributes[attribute];
+  const uint32_t elements = still.header.elements(clip.limits().meshes[mesh]);
+  std::copy(still.values.begin(), still.values.end(), out);
+  const auto [first, last] = clip.attribute_tracks(mesh, attribute);
+  for (uint32_t t = first; t < last; ++t) {
+    with_sample(clip, t, frame, [&](const Sample& sample) {
+      sample.add_motion(still.header.components(), 0, elements, out);
+    });
+  }
+  return Status::kOk;
 }
 
 }  // namespace anicodec

@@ -51,6 +51,16 @@ RootState root_state(const Clip& clip, const FrameMix& mix);
 Sample make_sample(const Clip& clip, uint32_t track, const FrameMix& mix, float* buffer,
                    float* scratch, double quality = 1);
 
+/// Stores the positions of all vertices of a mesh in one frame as a context shows them, three floats
+/// each. Errors: kFrameRange; kAbsent: the mesh is not there. Cost: O(vertices x components), the
+/// same for every frame. Allocates nothing, but in a segment of MSGI.
+Status show_positions(const Clip& clip, uint32_t mesh, uint32_t frame, float* out);
+
+/// Stores the values of an attribute of numbers in one frame, elements x components, moving or not.
+/// Errors: kFrameRange; kArgument: no such attribute. Cost: as show_positions(), for each track.
+Status show_attribute(const Clip& clip, uint32_t mesh, uint32_t attribute, uint32_t frame,
+                      float* out);
+
 }  // namespace anicodec
 
 #endif  // ANICODEC_SDK_CLIP_SAMPLE_H_

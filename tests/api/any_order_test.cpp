@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Opened without the source's order, a clip shows the same vertices and polygons in another one.
-#include "sdk/clip/clip.h"
+#include "sdk/clip/sample.h"
 #include "tests/api/opened.h"
 #include "tests/codec/edited_file.h"
 
@@ -39,7 +39,7 @@ anic_status show(const Bytes& file, uint64_t flags, Shown* out) {
   EXPECT_TRUE(clip.open(file, direct).ok());
   const Topology& t = clip.meshes()[0].topology;
   Points points(t.vertex_coded.size());
-  EXPECT_EQ(clip.positions(0, clip.frame_count() - 1, points[0].data()), Status::kOk);
+  EXPECT_EQ(show_positions(clip, 0, clip.frame_count() - 1, points[0].data()), Status::kOk);
   for (size_t p = 0; p + 1 < t.polygon_offsets.size(); ++p) {
     Points& polygon = out->polygons.emplace_back();
     for (uint32_t c = t.polygon_offsets[p]; c < t.polygon_offsets[p + 1]; ++c)

@@ -4,7 +4,7 @@
 // Files of several clips, seen through the C interface.
 #include "codec/sequence/clip_library.h"
 #include "format/container.h"
-#include "sdk/clip/clip.h"
+#include "sdk/clip/sample.h"
 #include "sdk/play/play.h"
 #include "sdk/segment/keep_frames.h"
 #include "tests/api/opened.h"
@@ -327,25 +327,6 @@ TEST(AnicShare, FewerComponentsAreThoseOfAnAssetOpenedSo) {
       EXPECT_EQ(q, p);
     }
     EXPECT_EQ(anic_verify_asset(shared.get()), ANIC_OK) << "what the file holds";
-  }
-}
-
-TEST(AnicClips, OneCanBeTakenOutOfAnOpenFile) {
-  for (BasisChoice basis : kBases) {
-    Clip all, one;
-    ASSERT_TRUE(all.open(encoded_limbs(basis).file).ok());
-    ASSERT_TRUE(one.open(encoded_limbs(basis).file).ok());
-    one.take_clip(1);
-    EXPECT_EQ(one.frame_count(), kFrameCounts[1]);
-    ASSERT_EQ(one.clips().size(), 1U);
-    EXPECT_EQ(one.clips()[0].name, "run");
-    std::vector<float> a(size_t{3} * all.vertex_count()), b(a.size());
-    for (uint32_t f = 0; f < kFrameCounts[1]; ++f) {
-      ASSERT_EQ(all.positions(0, kFrameCounts[0] + f, a.data()), Status::kOk);
-      ASSERT_EQ(one.positions(0, f, b.data()), Status::kOk);
-      EXPECT_EQ(a, b);
-    }
-    EXPECT_LT(one.resident_bytes(), all.resident_bytes());
   }
 }
 

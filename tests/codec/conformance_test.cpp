@@ -4,7 +4,7 @@
 // The files of tests/conformance/, and the example that the specification takes apart.
 #include "build_paths.h"
 #include "corpus/clips.h"
-#include "sdk/clip/clip.h"
+#include "sdk/clip/sample.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +48,7 @@ TEST_P(Conformance, DecodesAsTheFileSays) {
   std::vector<float> played(size_t{3} * source.vertex_count);
   double largest = 0;
   for (uint32_t f = 0; f < clip.frame_count(); ++f) {
-    ASSERT_EQ(clip.positions(0, f, played.data()), Status::kOk);
+    ASSERT_EQ(show_positions(clip, 0, f, played.data()), Status::kOk);
     for (size_t v = 0; v < source.vertex_count; ++v) {
       double squared = 0;
       for (size_t c = 0; c < 3; ++c)
@@ -64,7 +64,7 @@ TEST_P(Conformance, DecodesAsTheFileSays) {
     std::vector<float> values(stored.values.size());
     double furthest = 0;
     for (uint32_t f = 0; f < clip.frame_count(); ++f) {
-      ASSERT_EQ(clip.attribute_values(0, error.attribute, f, values.data()), Status::kOk);
+      ASSERT_EQ(show_attribute(clip, 0, error.attribute, f, values.data()), Status::kOk);
       for (size_t i = 0; i < values.size(); ++i)
         furthest = std::max(
             furthest, std::abs(double{values[i]} - double{of->values[f * values.size() + i]}));

@@ -6,7 +6,7 @@
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
 #include "format/continuation.h"
-#include "sdk/clip/clip.h"
+#include "sdk/clip/sample.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +65,7 @@ double largest_error(const Bytes& file, const MeshSequence& clip) {
   std::vector<float> frame(size_t{3} * clip.vertex_count);
   double largest = 0;
   for (uint32_t f = 0; f < clip.frame_count; ++f) {
-    EXPECT_EQ(opened.positions(0, f, frame.data()), Status::kOk);
+    EXPECT_EQ(show_positions(opened, 0, f, frame.data()), Status::kOk);
     for (size_t i = 0; i < frame.size(); i += 3) {
       double squared = 0;
       for (size_t c = 0; c < 3; ++c) {
@@ -196,7 +196,7 @@ TEST(LiveEncoder, CodesAttributesThatMove) {
       for (uint32_t f = 0; f < 6; ++f) {
         const std::vector<float> wanted = shine(clip, first + f, parts_at);
         std::vector<float> values(wanted.size());
-        ASSERT_EQ(opened.attribute_values(0, 0, f, values.data()), Status::kOk);
+        ASSERT_EQ(show_attribute(opened, 0, 0, f, values.data()), Status::kOk);
         double worst = 0;
         // Polygons come in the order of the coder, each from any corner on: compare the mean colour of each vertex.
         std::vector<double> ours(size_t{3} * clip.vertex_count), theirs(ours.size());

@@ -4,7 +4,7 @@
 
 #include "codec/sequence/error.h"
 #include "codec/sequence/scene.h"
-#include "sdk/clip/clip.h"
+#include "sdk/clip/sample.h"
 #include "tests/two_boxes.h"
 
 #include <cmath>
@@ -39,7 +39,8 @@ TEST(EncodeScene, KeepsTheErrorOfTheWholeAndTheRunsOfEach) {
     for (uint32_t m = 0; m < 2; ++m) {
       const size_t count = size_t{3} * clip.vertex_count(m);
       const bool hidden = m == 1 && f >= 4 && f < 8;
-      EXPECT_EQ(clip.positions(m, f, positions.data()), hidden ? Status::kAbsent : Status::kOk);
+      EXPECT_EQ(show_positions(clip, m, f, positions.data()),
+                hidden ? Status::kAbsent : Status::kOk);
       for (size_t i = 0; i < count && !hidden; i += 3)
         worst =
             std::max(worst, std::hypot(double{positions[i]} - whole.frame(f)[first + i],

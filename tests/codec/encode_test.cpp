@@ -5,7 +5,7 @@
 #include "codec/metrics/metrics.h"
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
-#include "sdk/clip/clip.h"
+#include "sdk/clip/sample.h"
 #include "tests/codec/edited_file.h"
 
 #include <algorithm>
@@ -56,7 +56,7 @@ MeshSequence decoded(const Bytes& file, const MeshSequence& like) {
   EXPECT_EQ(clip.frame_count(), like.frame_count);
   MeshSequence out = like;
   for (uint32_t f = 0; f < clip.frame_count(); ++f)
-    EXPECT_EQ(clip.positions(0, f, out.frame(f).data()), Status::kOk);
+    EXPECT_EQ(show_positions(clip, 0, f, out.frame(f).data()), Status::kOk);
   const Topology& t = clip.meshes()[0].topology;
   EXPECT_EQ(cycles(t.polygon_offsets, t.polygon_corners),
             cycles(like.polygons.offsets, like.polygons.corners));
@@ -264,7 +264,7 @@ Status open_status(const Bytes& bytes) {
   if (status == Status::kOk) {
     std::vector<float> frame(size_t{3} * clip.vertex_count());
     for (uint32_t f = 0; f < std::min(clip.frame_count(), 4U); ++f) {
-      if (clip.positions(0, f, frame.data()) == Status::kOk) {
+      if (show_positions(clip, 0, f, frame.data()) == Status::kOk) {
         EXPECT_TRUE(
             std::all_of(frame.begin(), frame.end(), [](float x) { return std::isfinite(x); }));
       }

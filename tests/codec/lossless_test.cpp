@@ -10,8 +10,8 @@
 #include "codec/sequence/clip_library.h"
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
-#include "sdk/clip/clip.h"
 #include "sdk/clip/memory_estimate.h"
+#include "sdk/clip/sample.h"
 
 #include <cstring>
 #include <string>
@@ -40,7 +40,7 @@ Clip opened(const Bytes& file, const OpenOptions& options = {}) {
 
 bool same_bits(const Clip& clip, uint32_t mesh, uint32_t frame, std::span<const float> source) {
   std::vector<float> shown(source.size());
-  return clip.positions(mesh, frame, shown.data()) == Status::kOk &&
+  return show_positions(clip, mesh, frame, shown.data()) == Status::kOk &&
          std::memcmp(shown.data(), source.data(), source.size_bytes()) == 0;
 }
 

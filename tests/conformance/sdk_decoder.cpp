@@ -9,9 +9,9 @@
 #include "format/container.h"
 #include "format/continuation.h"
 #include "format/metadata.h"
-#include "sdk/clip/clip.h"
 #include "sdk/clip/file_checks.h"
 #include "sdk/clip/kept_learning.h"
+#include "sdk/clip/sample.h"
 
 #include <algorithm>
 #include <cmath>
@@ -156,10 +156,10 @@ std::string attribute(const Clip& clip, uint32_t mesh, uint32_t which) {
   std::vector<std::vector<float>> values{{a.values.begin(), a.values.end()}};
   for (uint32_t f = 1; first != end && f < clip.frame_count(); ++f) {
     values.emplace_back(a.values.size());
-    if (clip.attribute_values(mesh, which, f, values.back().data()) != Status::kOk)
+    if (show_attribute(clip, mesh, which, f, values.back().data()) != Status::kOk)
       values.back().clear();
   }
-  if (first != end && clip.attribute_values(mesh, which, 0, values[0].data()) != Status::kOk)
+  if (first != end && show_attribute(clip, mesh, which, 0, values[0].data()) != Status::kOk)
     values[0].clear();
   out.add("values", list(values, [](const auto& frame) {
             return list(frame, [](float x) { return number(double{x}); });
@@ -402,7 +402,7 @@ int decode(const char* path, const std::string& out) {
     for (uint32_t m = 0; m < positions.size(); ++m) {
       for (uint32_t f = 0; f < clip.frame_count(); ++f) {
         std::vector<float>& frame = positions[m].emplace_back(size_t{3} * clip.vertex_count(m));
-        const Status s = clip.positions(m, f, frame.data());
+        const Status s = show_positions(clip, m, f, frame.data());
         if (s == Status::kAbsent)
           std::fill(frame.begin(), frame.end(), std::numeric_limits<float>::quiet_NaN());
         else if (s != Status::kOk)

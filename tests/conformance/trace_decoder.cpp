@@ -5,7 +5,7 @@
 // step that differs (README.md, section "Traces").
 //
 // usage: trace_decoder FILE.anic
-#include "sdk/clip/clip.h"
+#include "sdk/clip/sample.h"
 
 #include <algorithm>
 #include <cinttypes>
@@ -75,7 +75,7 @@ class Printer : public DecodingTrace {
 /// The first positions of a frame; the last digits may differ from one decoder to another.
 Status print_positions(const Clip& clip, uint32_t mesh, uint32_t frame) {
   std::vector<float> positions(size_t{3} * clip.vertex_count(mesh));
-  const Status s = clip.positions(mesh, frame, positions.data());
+  const Status s = show_positions(clip, mesh, frame, positions.data());
   if (s != Status::kOk)
     return s == Status::kAbsent ? Status::kOk : s;
   std::printf("positions of mesh %" PRIu32 " in frame %" PRIu32 ":", mesh, frame);

@@ -16,7 +16,7 @@
 #include "format/coding/coefficient_model.h"
 #include "format/coding/rans_coder.h"
 #include "format/coding/time_weights.h"
-#include "sdk/clip/clip.h"
+#include "sdk/clip/sample.h"
 #include "sdk/pose/exact_pose.h"
 #include "sdk/pose/pose_coding.h"
 #include "sdk/prediction/vertex_order.h"
@@ -89,7 +89,7 @@ Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
     throw Error(ErrorKind::kInternal, f.detail);
   MeshSequence shown = source;
   for (uint32_t f = 0; f < source.frame_count; ++f)
-    opened.positions(0, f, shown.frame(f).data());
+    show_positions(opened, 0, f, shown.frame(f).data());
   CompareOptions options;
   options.sted = false;
   const Comparison measured = compare(source, shown, options);

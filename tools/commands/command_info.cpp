@@ -4,7 +4,7 @@
 #include "codec/sequence/mesh_sequence.h"
 #include "format/container.h"
 #include "format/records.h"
-#include "sdk/clip/clip.h"
+#include "sdk/clip/sample.h"
 #include "tools/inputs/clip_input.h"
 #include "tools/inputs/stream_input.h"
 #include "tools/program/command.h"
@@ -179,7 +179,7 @@ std::vector<Range> ranges_of(const Contents& c, uint32_t mesh, uint32_t number) 
   bool is_first = true;
   for (const FrameRun& run : frames_of_mesh(c.clip, mesh)) {
     for (uint32_t f = run.first; f < run.first + run.count; ++f) {
-      c.clip.attribute_values(mesh, number, f, values.data());
+      show_attribute(c.clip, mesh, number, f, values.data());
       for (uint32_t i = 0; is_first && i < n; ++i)
         ranges[i] = {values[i], values[i]};
       is_first = false;

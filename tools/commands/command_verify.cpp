@@ -5,8 +5,8 @@
 #include "format/bounds_record.h"
 #include "format/container.h"
 #include "format/metadata.h"
-#include "sdk/clip/clip.h"
 #include "sdk/clip/file_checks.h"
+#include "sdk/clip/sample.h"
 #include "tools/inputs/clip_input.h"
 #include "tools/inputs/stream_input.h"
 #include "tools/program/command.h"
@@ -53,7 +53,7 @@ size_t check_chunks(const std::string& path, const std::string& bytes) {
 void play(const std::string& path, const Clip& clip, uint32_t mesh, uint32_t frame,
           std::vector<float>* positions) {
   positions->resize(size_t{3} * clip.vertex_count(mesh));
-  const Status status = clip.positions(mesh, frame, positions->data());
+  const Status status = show_positions(clip, mesh, frame, positions->data());
   if (status != Status::kOk)
     throw Error(error_kind(status),
                 fmt::format("{}: frame {}: {}", path, frame, status_string(status)));

@@ -6,7 +6,7 @@
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
 #include "format/container.h"
-#include "sdk/clip/clip.h"
+#include "sdk/clip/sample.h"
 
 #include <functional>
 #include <set>
@@ -51,7 +51,7 @@ std::vector<float> frame_of(const Bytes& file, uint32_t frame) {
   Clip clip;
   EXPECT_TRUE(clip.open(file).ok());
   std::vector<float> out(size_t{3} * clip.vertex_count());
-  EXPECT_EQ(clip.positions(0, frame, out.data()), Status::kOk);
+  EXPECT_EQ(show_positions(clip, 0, frame, out.data()), Status::kOk);
   return out;
 }
 

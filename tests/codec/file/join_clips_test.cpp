@@ -5,7 +5,7 @@
 #include "codec/encode.h"
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
-#include "sdk/clip/clip.h"
+#include "sdk/clip/sample.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,7 +70,7 @@ TEST(JoinClips, MakesOneClipThatKeepsThePromiseOfItsParts) {
     std::vector<float> frame(size_t{3} * source.vertex_count);
     double largest = 0, squared = 0;
     for (uint32_t f = 0; f < source.frame_count; ++f) {
-      ASSERT_EQ(clip.positions(0, f, frame.data()), Status::kOk);
+      ASSERT_EQ(show_positions(clip, 0, f, frame.data()), Status::kOk);
       for (size_t v = 0; v < source.vertex_count; ++v) {
         double d = 0;
         for (size_t c = 3 * v; c < 3 * v + 3; ++c)

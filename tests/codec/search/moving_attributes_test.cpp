@@ -7,7 +7,7 @@
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
 #include "format/container.h"
-#include "sdk/clip/clip.h"
+#include "sdk/clip/sample.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +42,7 @@ double largest_error(const Clip& clip, uint32_t number, const Attribute& source,
   std::vector<float> values(row);
   double largest = 0;
   for (uint32_t f = 0; f < clip.frame_count(); ++f) {
-    EXPECT_EQ(clip.attribute_values(0, number, f, values.data()), Status::kOk);
+    EXPECT_EQ(show_attribute(clip, 0, number, f, values.data()), Status::kOk);
     for (size_t i = 0; i < row; ++i)
       largest = std::max(largest, std::abs(double{values[i]} -
                                            double{source.values[(f + first_frame) * row + i]}));
@@ -121,8 +121,8 @@ TEST(MovingAttributes, LeavePositionsAsTheyAre) {
   const Clip a = opened(with), b = opened(without);
   std::vector<float> x(size_t{3} * clip.vertex_count), y(x.size());
   for (uint32_t f = 0; f < clip.frame_count; ++f) {
-    ASSERT_EQ(a.positions(0, f, x.data()), Status::kOk);
-    ASSERT_EQ(b.positions(0, f, y.data()), Status::kOk);
+    ASSERT_EQ(show_positions(a, 0, f, x.data()), Status::kOk);
+    ASSERT_EQ(show_positions(b, 0, f, y.data()), Status::kOk);
     ASSERT_EQ(x, y);
   }
 }
@@ -328,7 +328,7 @@ TEST(MovingAttributes, OfWholeNumbersAreExactOnceRounded) {
   const size_t row = phase.values.size() / phase.frames;
   std::vector<float> values(row);
   for (uint32_t f = 0; f < phase.frames; ++f) {
-    ASSERT_EQ(back.attribute_values(0, 2, f, values.data()), Status::kOk);
+    ASSERT_EQ(show_attribute(back, 0, 2, f, values.data()), Status::kOk);
     for (size_t i = 0; i < row; ++i)
       ASSERT_EQ(std::round(values[i]), phase.values[f * row + i]);
   }

@@ -5,7 +5,7 @@
 #include "codec/encode.h"
 #include "codec/file/clip_file.h"
 #include "corpus/clips.h"
-#include "sdk/clip/clip.h"
+#include "sdk/clip/sample.h"
 
 #include <cmath>
 
@@ -55,12 +55,12 @@ TEST(TimeSegmentation, SegmentsShareAPoseAndPlayInAnyOrder) {
   std::vector<float> a(2700), b(2700);
   double squared = 0;
   for (uint32_t f = 0; f < clip.frame_count; ++f) {
-    ASSERT_EQ(opened.positions(0, f, a.data()), Status::kOk);
+    ASSERT_EQ(show_positions(opened, 0, f, a.data()), Status::kOk);
     for (size_t i = 0; i < a.size(); ++i)
       squared += std::pow(double{a[i]} - double{clip.frame(f)[i]}, 2);
   }
   EXPECT_LE(input.rmse(squared), rmse);
-  ASSERT_EQ(opened.positions(0, 139, b.data()), Status::kOk);
+  ASSERT_EQ(show_positions(opened, 0, 139, b.data()), Status::kOk);
   EXPECT_EQ(a, b);
 }
 
