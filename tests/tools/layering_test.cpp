@@ -64,6 +64,21 @@ TEST(Layering, FindsArrowsBetweenRoomsThatPointBack) {
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("algebra")));
 }
 
+TEST(Layering, FindsWhatReachesPastTheRoomsThatAreNamed) {
+  TemporaryFolder folder;
+  folder.write("codec/metrics/a.cpp", "#include \"sdk/mesh/b.h\"\n#include \"sdk/clip/c.h\"\n");
+  folder.write("tools/commands/command_decode.cpp", "#include \"sdk/clip/clip.h\"\n");
+  folder.write("tools/commands/command_verify.cpp", "#include \"sdk/clip/clip.h\"\n");
+  Outcome outcome = check_layering(folder / "");
+  EXPECT_EQ(outcome.status, 1);
+  for (const char* fault :
+       {"codec/metrics/a.cpp must not include \"sdk/clip/c.h\"",
+        "tools/commands/command_decode.cpp must not include \"sdk/clip/clip.h\""})
+    EXPECT_THAT(outcome.out, HasSubstr(fault));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("sdk/mesh/b.h")));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("command_verify")));
+}
+
 TEST(Layering, FindsUnitsOfOneName) {
   TemporaryFolder folder;
   folder.write("sdk/play/memory.h", "");
