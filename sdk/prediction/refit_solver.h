@@ -230,8 +230,8 @@ struct RefitSolver {
  private:
   Float L[M][M], D[M], inverse[M];
   Float row[M];  // row j of L D
-  // Of the neighbours, kept from one prior to the next: their places, whether there is one, squared distances in the first
-  // `moved` samples to the vertices and to one another.
+  // Data of the neighbours, kept from one prior to the next: places, whether there is one, squared distances in the
+  // first `moved` samples to the vertices and to one another.
   Float places[M][3], valid[M], apart[M], differ[M][M];
   bool placed = false;
   size_t moved = 0;

@@ -25,6 +25,10 @@ if(NOT FLAGS MATCHES "sanitize")
   endforeach()
 endif()
 
+if(NOT EXISTS "${prefix}/share/anicodec/shaders/anicodec_play.glsl")
+  message(FATAL_ERROR "no shader in ${prefix}")
+endif()
+
 # Exactly the functions of the header.
 file(READ "${prefix}/include/anicodec/anicodec.h" header)
 string(REGEX MATCHALL "ANIC_API [^;(]*[ *]anic_[a-z_]+\\(" declared "${header}")

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  * SPDX-FileCopyrightText: The anicodec authors
  *
- * What speed.mjs does in WebAssembly, in native code: opens a file without boxes, by the fastest kernels of the machine and in
- * one thread, and makes the positions of its first mesh frame by frame.
+ * The work that speed.mjs gives to WebAssembly, in native code: opens a file without boxes, by the fastest kernels of the
+ * machine and in one thread, and makes the positions of its first mesh frame by frame.
  *
  * usage: native_speed FILE.anic [RUNS]     prints the least processor time of an opening, ms, and of a frame, us
  */

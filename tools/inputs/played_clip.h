@@ -17,7 +17,7 @@
 
 namespace anicodec::tools {
 
-/// Which clips a command can work on: kOne, those whose connectivity does not change.
+/// Clips that a command can work on: kOne, only clips of one connectivity.
 enum class Topologies { kOne, kAny };
 
 /// An .anic file that a command plays, through the interface that other programs use. For one thread.
@@ -76,7 +76,7 @@ class PlayedClip {
   AttributeSource play_attributes(const std::vector<uint32_t>& meshes) const;
 
  private:
-  /// What is shown now; sources share it.
+  /// The frame shown now; sources share it.
   struct Player {
     anic::Context context;
     uint32_t frame = UINT32_MAX;

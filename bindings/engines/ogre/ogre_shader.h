@@ -22,43 +22,18 @@ out vec3 place;
 out vec2 uv;
 int row;
 vec4 of(int i) { return texelFetch(state, ivec2(i, row), 0); }
-vec3 moved(int i, vec3 p) {
-  vec4 q = vec4(p, 1.0);
-  return vec3(dot(of(i), q), dot(of(i + 1), q), dot(of(i + 2), q));
-}
-vec3 group(vec4 a, vec4 b, vec4 c, vec4 w) {
-  return w.x * a.xyz + w.y * vec3(a.w, b.xy) + w.z * vec3(b.zw, c.x) + w.w * c.yzw;
-}
-vec3 sum(isampler2D basis, ivec2 v, int first, int groups, bool vectors, int w) {
-  vec3 x = vec3(0.0);
-  for (int g = 0; g < groups; ++g) {
-    if (vectors) {
-      ivec2 at = ivec2(v.x, first + 3 * g * rows + v.y);
-      x += group(vec4(texelFetch(basis, at, 0)), vec4(texelFetch(basis, at + ivec2(0, rows), 0)),
-                 vec4(texelFetch(basis, at + ivec2(0, 2 * rows), 0)), of(w + g));
-    } else {
-      x += group(of(w + 3 * g), of(w + 3 * g + 1), of(w + 3 * g + 2),
-                 vec4(texelFetch(basis, ivec2(v.x, first + g * rows + v.y), 0)));
-    }
-  }
-  return x;
-}
+#define ANIC_STATE(i) of(i)
+)"
+#include "anicodec_play.inc"  // sdk/shaders/anicodec_play.glsl
+                                        R"(
 void main() {
   row = int(instance.x);
-  int vertex = int(uv1);
-  ivec2 v = ivec2(vertex % width, vertex / width);
   vec3 x = vec3(0.0);
   int at = 1, parts = int(of(0).x);
   for (int p = 0; p < parts; ++p) {
     vec4 head = of(at), kind = of(at + 1);
-    vec4 still = head.z < 0.0 ? vec4(0.0) : texelFetch(pose, ivec2(v.x, int(head.z) + v.y), 0);
-    int region = at + 2 + int(still.w) * int(kind.z);
-    vec4 counts = of(region + 6);
-    bool vectors = kind.x > 0.5;
-    int w = region + 7;
-    vec3 s = sum(wide, v, int(head.y), int(counts.x), vectors, w) +
-             sum(narrow, v, int(head.x), int(counts.y), vectors, w + int(kind.y));
-    x += counts.z * moved(region + 3, s + moved(region, still.xyz));
+    AnicSegment s = AnicSegment(int(head.x), int(head.y), int(head.z), width, rows, kind.x > 0.5, int(kind.y), int(kind.z));
+    x += anic_part(narrow, wide, pose, s, int(uv1), at + 2);
     at += int(head.w);
   }
   place = (world * vec4(x, 1.0)).xyz;
