@@ -15,7 +15,7 @@
 namespace anicodec {
 namespace {
 
-/// What the kernel makes of a frame, past samples and contexts.
+/// A frame as the kernel alone makes it, past samples and contexts.
 std::vector<float> played(const Clip& clip, uint32_t frame) {
   const Segment& segment = *clip.segment_at(0, frame);
   FrameState state = clip.state_of(segment, frame - segment.first_frame);

@@ -107,7 +107,7 @@ ROOMS = {
     "bindings/engines/ogre": [],
     "bindings/usd": [],
 }
-# What a room, or one file of it, may use of the modules below its own: a room that is named here, not those that it is made of.
+# Rooms of lower modules that a room, or one file of it, may use; not the rooms inside them.
 # Commands play through the C interface; what looks into a file is named.
 REACH = {
     "codec/sequence": ["format", "sdk/mesh", "sdk/play"],
