@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
-"""Fuzzes by libFuzzer under AddressSanitizer and UndefinedBehaviorSanitizer, for hours or days, and tells what was reached.
+"""Fuzzes by libFuzzer for hours or days, and tells what was reached.
 
 usage: campaign.py FOLDER [--seconds N | --runs N] [--targets NAMES] [--jobs N] [--coverage]
-Builds the targets by preset fuzz (clang), and runs one after the other, round after round, until so many seconds have gone by
-or so many inputs have been executed in all. FOLDER, outside the checkout, keeps each target's corpus for the next time, the
+Builds the targets twice by clang: with AddressSanitizer and UndefinedBehaviorSanitizer (preset fuzz), and without them, which
+executes many times as many inputs. Runs one target after the other without, round after round, and what reached something new
+under the sanitizers after each turn; every eighth round runs under them. It ends when so many seconds have gone by or so many
+inputs have been executed in all. FOLDER, outside the checkout, keeps each target's corpus for the next time, the
 number of executions, and in found/ each input that stopped a target. With --coverage the corpora are then run in a
 build that counts (llvm-cov): what is printed are the lines of format/ and sdk/ that were executed, and those that never
 were. Exit status 1 if an input stopped a target.
@@ -14,6 +16,8 @@ The targets: those that decode, unless told; `encode`, and importers, too: --tar
 """
 import argparse
 import concurrent.futures
+import functools
+import itertools
 import json
 import pathlib
 import re
@@ -27,14 +31,18 @@ DECODING = ("api", "stream", "clip", "learning", "chunk", "faces", "pose", "entr
 MORE_SEEDS = {"api": ["tests/conformance"], "stream": ["tests/conformance"], "clip": ["tests/conformance"],
               "learning": ["tests/conformance/streams"]}
 ROUND = 300  # seconds that a target runs before the next has its turn
+SANITIZED = 8  # of so many rounds one is under the sanitizers
+AT_ONCE = 100  # inputs of a run under them
 LONGEST = 24576  # bytes of an input
 SLOW = 120  # seconds of the clock, on a busy machine, that an input may take
-BUILDS = {"fuzz": ["--preset", "fuzz"],
-          "coverage": ["-S", ROOT, "-B", ROOT / "build/coverage", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
-                       "-DCMAKE_C_COMPILER=clang", "-DCMAKE_CXX_COMPILER=clang++",
+OTHER = ["-S", ROOT, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCMAKE_C_COMPILER=clang", "-DCMAKE_CXX_COMPILER=clang++"]
+# Calls of libFuzzer at every comparison take half of the time; the mutator knows the numbers that tell.
+BUILDS = {"fuzz": ["--preset", "fuzz", "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1 -DNDEBUG"],
+          "fast": [*OTHER, "-B", ROOT / "build/fast", "-DANICODEC_BUILD_FUZZERS=ON", "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2 -g1 -DNDEBUG",
+                   "-DCMAKE_CXX_FLAGS=-fsanitize=fuzzer-no-link -fno-sanitize-coverage=trace-cmp,indirect-calls,stack-depth"],
+          "coverage": [*OTHER, "-B", ROOT / "build/coverage", "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1 -DNDEBUG",
                        "-DCMAKE_CXX_FLAGS=-fprofile-instr-generate -fcoverage-mapping"]}
-OPTIONS = ["-DANICODEC_LANES=8", "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1 -DNDEBUG",
-           "-DANICODEC_INSTALL=OFF", "-DCMAKE_EXE_LINKER_FLAGS=-fuse-ld=lld"]
+OPTIONS = ["-DANICODEC_LANES=8", "-DCMAKE_UNITY_BUILD=ON", "-DANICODEC_INSTALL=OFF", "-DCMAKE_EXE_LINKER_FLAGS=-fuse-ld=lld"]
 
 
 def built(kind, targets, jobs):
@@ -74,14 +82,28 @@ class Campaign:
 
     def run(self, programs, name, seconds, runs):
         """Executions of a turn."""
-        command = [programs / f"{name}_fuzz", self.corpus(name), f"-max_total_time={seconds}",
-                   "-print_final_stats=1", f"-timeout={SLOW}", "-rss_limit_mb=2048", f"-max_len={LONGEST}",
+        options = [f"-max_total_time={seconds}", f"-max_len={LONGEST}", "-entropic=0", *([f"-runs={runs}"] if runs else [])]
+        return self.execute(programs, name, [self.corpus(name), *options])
+
+    def check_new(self, programs, name):
+        """Runs what the corpus has more than the last time; returns the number."""
+        list_file = self.folder / f"checked_{name}"
+        known = set(list_file.read_text().split()) if list_file.exists() else set()
+        new = sorted(path for path in self.corpus(name).iterdir() if path.name not in known)
+        for first in range(0, len(new), AT_ONCE):
+            some = new[first:first + AT_ONCE]
+            self.execute(programs, name, some, len(some))
+            with list_file.open("a") as file:
+                file.writelines(f"{path.name}\n" for path in some)
+        return len(new)
+
+    def execute(self, programs, name, arguments, executions=0):
+        """Executions of a run, as it tells unless they are given."""
+        command = [programs / f"{name}_fuzz", *arguments, "-print_final_stats=1", f"-timeout={SLOW}", "-rss_limit_mb=2048",
                    f"-artifact_prefix={self.folder / 'found'}/{name}-"]
-        if runs:
-            command.append(f"-runs={runs}")
         result = subprocess.run(command, capture_output=True, check=False)
         text = result.stderr.decode(errors="replace")
-        done = int(found.group(1)) if (found := re.search(r"number_of_executed_units: (\d+)", text)) else 0
+        done = executions or (int(found.group(1)) if (found := re.search(r"number_of_executed_units: (\d+)", text)) else 0)
         if result.returncode != 0:
             self.found += 1
             log = self.folder / "found" / f"{name}-{time.strftime('%H%M%S')}.log"
@@ -91,13 +113,22 @@ class Campaign:
         self.count_file.write_text(json.dumps(self.counts, indent=1) + "\n")
         return done
 
-    def run_all(self, programs, seconds, runs, jobs):
+    def run_all(self, sanitized, fast, seconds, runs, jobs):
+        """`sanitized`, `fast`: folders of programs."""
+        def turn_of(name, turn, runs, number):
+            programs = sanitized if number % SANITIZED == SANITIZED - 1 else fast
+            return self.run(programs, name, turn, runs) + self.check_new(sanitized, name)
+
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-            list(pool.map(lambda name: self.take_seeds(programs, name), self.targets))
+            list(pool.map(lambda name: self.take_seeds(fast, name), self.targets))
             start, total = time.monotonic(), 0
-            while (left := seconds - (time.monotonic() - start)) > 0 and not 0 < runs <= total:
+            for number in itertools.count():
+                left = seconds - (time.monotonic() - start)
+                if left <= 0 or 0 < runs <= total:
+                    break
                 turn = max(1, int(min(ROUND, left * jobs / len(self.targets))))
-                total += sum(pool.map(lambda name: self.run(programs, name, turn, runs - total if runs else 0), self.targets))
+                left_runs = runs - total if runs else 0
+                total += sum(pool.map(functools.partial(turn_of, turn=turn, runs=left_runs, number=number), self.targets))
                 spent = time.monotonic() - start
                 print(f"{spent:.0f} s: {total:,} executions, {total / spent:.0f} a second; with earlier ones "
                       f"{sum(self.counts.values()):,}: " + ", ".join(f"{n} {c:,}" for n, c in sorted(self.counts.items())),
@@ -168,7 +199,8 @@ def main():
     campaign = Campaign(folder, arguments.targets.split(","))
     seconds = arguments.seconds if arguments.seconds is not None else float("inf") if arguments.runs else 0
     if seconds:
-        campaign.run_all(built("fuzz", campaign.targets, arguments.jobs), seconds, arguments.runs, arguments.jobs)
+        programs = [built(kind, campaign.targets, arguments.jobs) for kind in ("fuzz", "fast")]
+        campaign.run_all(*programs, seconds, arguments.runs, arguments.jobs)
     if arguments.coverage:
         campaign.coverage(arguments.jobs)
     sys.exit(1 if campaign.found else 0)
