@@ -10,9 +10,11 @@ import sys
 
 import csharp
 import headers
+import options
+import python
 import web
 
-WRITERS = (csharp, web)
+WRITERS = (csharp, python, web, options)
 
 
 def main() -> int:

@@ -286,7 +286,7 @@ def test_options_are_those_of_the_command(command):
     for name in encoder.option_names():
         if name not in arrays:
             assert re.search(rf"  (-\w,)?--{others.get(name, name).replace('_', '-')}\b", text), name
-    for name, words in encoder._CHOICES.items():
+    for name, (_, words) in encoder.CHOICES.items():
         assert set(values[name.replace("_", "-")].split("|")) == set(words), name
 
 

@@ -16,7 +16,7 @@ import tokenize
 
 C_LIKE = {".h", ".hpp", ".c", ".cpp", ".js", ".mjs", ".ts", ".jsx", ".tsx", ".rs", ".cs", ".ush", ".wesl", ".wgsl", ".glsl", ".gdshader", ".hlsl", ".shader"}
 HASHED = {".sh", ".cmake", ".yml", ".toml"}
-# Files by others, and those that bindings/generate writes from fields' fragments in the headers.
+# Files of others, and some that bindings/generate writes from fragments in the headers.
 FOREIGN = ("bindings/web/interface.d.ts", "bindings/csharp/Runtime/Enumerations.cs", "bindings/csharp/Runtime/Native.cs",
            "bindings/csharp/Runtime/NativeEncoder.cs", "tests/golden/", "tests/conformance/files/", "node_modules/", "bindings/web/dist/", "build/", "corpus/data/")
 PRINTED = ("format/", "sdk/", "codec/", "tools/", "bindings/")  # string literals of their C++ and Python are messages and help

@@ -5,6 +5,7 @@
 #include "codec/sequence/error.h"
 #include "codec/sequence/machine_memory.h"
 #include "format/metadata.h"
+#include "tools/inputs/clip_input.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_rate.h"
 #include "tools/options/help_text.h"
@@ -26,20 +27,6 @@
 
 namespace anicodec::tools {
 namespace {
-
-/// Found by looking at frames of dance, chicken, horse, flag and a captured face beside their originals
-/// (`render --view original,clip`): ripples are seen at 0.1, at 0.05 only if the two are compared, at 0.02 no more.
-double sted_of(Quality quality) {
-  switch (quality) {
-    case Quality::kGood:
-      return 0.05;
-    case Quality::kBetter:
-      return 0.02;
-    case Quality::kBest:
-      return 0.01;
-  }
-  return 0;
-}
 
 /// `metres_per_unit`: nothing before the clip is known.
 void set_target(const EncodeArguments& command, std::optional<double> metres_per_unit,
@@ -66,7 +53,8 @@ void set_target(const EncodeArguments& command, std::optional<double> metres_per
   if (!command.sted.empty())
     targets.push_back({ErrorMetric::kSted, parse_positive(command.sted, "--sted"), false});
   if (command.quality)
-    targets.push_back({ErrorMetric::kSted, sted_of(*command.quality), false});
+    targets.push_back(
+        {ErrorMetric::kSted, kQualitySteds[static_cast<size_t>(*command.quality)], false});
   if (!command.size.empty())
     targets.push_back(
         {ErrorMetric::kSize, static_cast<double>(parse_size(command.size, "--size")), false});
@@ -85,32 +73,6 @@ void set_target(const EncodeArguments& command, std::optional<double> metres_per
     options.target = {ErrorMetric::kMaxError, 0.05, true};
   }
 }
-
-constexpr Word<std::optional<Quality>> kQualities[] = {
-    {Quality::kGood, "good"}, {Quality::kBetter, "better"}, {Quality::kBest, "best"}};
-constexpr Word<BasisChoice> kBases[] = {{BasisChoice::kAuto, "auto"},
-                                        {BasisChoice::kKeyframes, "keyframes"},
-                                        {BasisChoice::kEigenshapes, "eigenshapes"},
-                                        {BasisChoice::kEigentrajectories, "eigentrajectories"}};
-constexpr Word<KeyframeMethod> kSelections[] = {{KeyframeMethod::kGas, "gas"},
-                                                {KeyframeMethod::kPivot, "pivot"},
-                                                {KeyframeMethod::kUniform, "uniform"}};
-constexpr Word<std::optional<InterpolationChoice>> kInterpolations[] = {
-    {InterpolationChoice::kLinear, "linear"},
-    {InterpolationChoice::kMsgi, "msgi"},
-    {InterpolationChoice::kAuto, "auto"}};
-constexpr Word<KeyframePoses> kKeyframePoses[] = {{KeyframePoses::kNative, "native"},
-                                                  {KeyframePoses::kDraco, "draco"},
-                                                  {KeyframePoses::kAuto, "auto"}};
-constexpr Word<OrderChoice> kOrders[] = {{OrderChoice::kAuto, "auto"},
-                                         {OrderChoice::kVertices, "vertices"},
-                                         {OrderChoice::kFree, "free"},
-                                         {OrderChoice::kAll, "all"}};
-constexpr Word<TopologyChanges> kTopologyChanges[] = {{TopologyChanges::kRefuse, "refuse"},
-                                                      {TopologyChanges::kKeep, "keep"},
-                                                      {TopologyChanges::kTransfer, "transfer"}};
-constexpr Word<MassageMode> kMassageModes[] = {
-    {MassageMode::kOff, "off"}, {MassageMode::kOn, "on"}, {MassageMode::kAuto, "auto"}};
 
 void set_names(const std::string& list, MeshSequence& sequence) {
   if (list.empty())
@@ -153,114 +115,6 @@ void set_events(const std::vector<std::string>& events, MeshSequence& sequence) 
     add_event(event, &*clip);
   }
 }
-
-void add_target(Options& options, EncodeArguments& a) {
-  options.group("Target");
-  options.option("--max-error", a.max_error, "LEN", "Largest error of any vertex (default 0.05%)");
-  options.option("--kg", a.kg, "PCT", "KG error in per cent");
-  options.option("--rmse", a.rmse, "LEN", "Root mean square error");
-  options.option("--displacement", a.displacement, "LEN",
-                 "Largest error of a vertex's move from frame to frame: less jitter");
-  options.option("--sted", a.sted, "X", "STED, a perceptual error");
-  options.choice(
-      "--quality", a.quality, {kQualities},
-      "Visible beside the original (good, STED 0.05), hardly (better, 0.02), not (best, 0.01)");
-  options.option("--size", a.size, "BYTES",
-                 "Smallest error in a file of at most 40000, 40k or 1.5M bytes");
-  options.option("--bpfv", a.bpfv, "BITS", "The same, as bits per frame and vertex");
-  options.flag("--lossless", a.lossless,
-               "The positions come back bit for bit; the file is several times as large");
-  options.exclude({"--kg", "--rmse", "--displacement", "--sted", "--quality", "--size", "--bpfv",
-                   "--lossless"});
-  options.exclude({"--max-error", "--lossless"});
-}
-
-void add_method(Options& options, EncodeArguments& a) {
-  options.group("Method");
-  options.choice("--basis", a.basis, {kBases}, "Kind of basis (default auto: the smallest file)");
-  options.number("--keyframes", a.keyframes, "K", {1, kMaxFrames},
-                 "Number of key-frames (default: as few as do)");
-  options.choice("--keyframe-selection", a.selection, {kSelections},
-                 "How key-frames are chosen (default pivot)");
-  options.choice("--interpolation", a.interpolation, {kInterpolations},
-                 "How frames come from key-frames: linear, msgi, which decoders may lack, or auto "
-                 "(default linear, of --basis auto auto)");
-  options.choice(
-      "--keyframe-coder", a.keyframe_coder, {kKeyframePoses},
-      "Coder of key-frames: native (default), draco, which decoders may lack, or the smaller "
-      "(auto)");
-  options.choice(
-      "--order", a.order, {kOrders},
-      "Source order kept: that of vertices, none (free), of faces too (all); default auto: "
-      "vertices, of glTF and FBX scenes none");
-  options.choice("--topology-changes", a.topology_changes, {kTopologyChanges},
-                 "Frames whose faces differ: refuse them (default), keep them as meshes of the "
-                 "file, or transfer the faces of the first frame to all");
-  options.flag("--split-objects", a.split_objects,
-               "Store each object of the input as a mesh, present only in the frames that show it "
-               "(default: as parts of one mesh)");
-  options.choice("--effort", a.effort, {kEfforts}, "How long to search (default normal)");
-  options.flag(
-      "--smallest", a.smallest,
-      "Make the file as small as can be, however long it takes to open (default: a balance)");
-}
-
-void add_massage_options(Options& options, EncodeArguments& a) {
-  options.group("Massage");
-  options.choice("--massage", a.massage, {kMassageModes},
-                 "Move vertices along their surface first (default off)");
-  options.number("--massage-strength", a.massage_strength, "X", {},
-                 "Weight of shape against distance, between 0 and 1 (default 0.5)");
-  options.option("--massage-tolerance", a.massage_tolerance, "LEN",
-                 "How far the surface may move anywhere (default: as far as it needs)");
-}
-
-void add_attributes(Options& options, EncodeArguments& a) {
-  options.group("Attributes");
-  options.flag("--no-attributes", a.no_attributes, "Positions and faces alone");
-  options.number("--uv-bits", a.attributes.uv_bits, "N", {1, 24},
-                 "Texture coordinates in steps of 2^-N (default 12)");
-  options.number("--colour-bits", a.attributes.colour_bits, "N", {1, 16},
-                 "Bits for each component of a colour (default 8)");
-  options.option("--attribute-error", a.attribute_error, "X",
-                 "Largest error of colours, texture coordinates and other numbers that change, in "
-                 "their own units or per cent of their range (default: half a step of "
-                 "--colour-bits for colours, 0.1% for others)");
-  options.option(
-      "--fields", a.fields, "NAME,...|none",
-      "Numbers beside positions, colours and texture coordinates that are kept (default: all)");
-  options.repeated("--field-error", a.field_errors, "NAME=X|exact",
-                   "Largest error of one of them, or of another attribute, in its units or per "
-                   "cent of its range; exact: "
-                   "whole numbers stay as they are");
-  options.repeated("--field-unit", a.field_units, "NAME=TEXT",
-                   "Unit of its values, as K or m/s: shown by info");
-  options.option("--store-normals", a.normal_error, "DEG",
-                 "Normals and tangents of the first frame as numbers, not only the hard edges: to "
-                 "within an angle in degrees, as 0.05");
-}
-
-void add_metadata(Options& options, EncodeArguments& a) {
-  options.group("Metadata (positions stay as they are)");
-  options.option("--fps", a.rate, "N[/D]",
-                 "Frames per second (default: as in the input, else 24; of a scene: the grid that "
-                 "its keys stand on, or without one a rate of 30 or more that ends with the last)");
-  options.choice("--up", a.up, {kUpAxes}, "Axis that points up");
-  options.option("--unit", a.unit, "METRES", "Length of a scene unit: metres, or m cm mm km in ft");
-  options.repeated("--event", a.events, "[CLIP:]NAME=SECONDS",
-                   "A named time of the clip, from its first frame on, or of one of several clips");
-  options.repeated("--meta", a.metadata, "KEY=VALUE",
-                   "Facts to store in the file, as author=, licence=, source=: shown by info");
-  options.option("--meta-file", a.metadata_file, "FILE.json", "The same, as a JSON object");
-  options.flag("--root-motion", a.root_motion,
-               "Keep the motion of the whole along the ground, and its turn about the up axis, "
-               "apart: a program can leave it out and move the character itself");
-  options.flag("--loop", a.loop, "The clip is meant to be repeated");
-}
-
-}  // namespace
-
-namespace {
 
 /// The JSON object of --meta-file with the entries of --meta; empty for none.
 std::string metadata_of(const EncodeArguments& command) {
@@ -333,11 +187,7 @@ void add_arguments(Options& options, EncodeArguments& a) {
       "Time between pieces of --live that need none before them (default 4; 0: all are such)");
   options.option("--box", a.box, "LEN",
                  "Diagonal for percentages of --live (default: the first piece's)");
-  add_target(options, a);
-  add_method(options, a);
-  add_massage_options(options, a);
-  add_attributes(options, a);
-  add_metadata(options, a);
+  add_encode_choices(options, a);
   options.watch([&a](const Option& option, const std::string& value) {
     const std::string name = option.long_name();
     if (!option.is_argument() && option.group != kGeneralGroup && name != "--output" &&
@@ -354,11 +204,7 @@ void add_clip_arguments(Options& options, EncodeArguments& a) {
   options.option("--clip", a.clip, "NAME|INDEX", "Animation of a scene");
   options.option("--name", a.names, "NAME",
                  "Name of the clip (default: of the cache or animation)");
-  add_target(options, a);
-  options.group("Method");
-  options.choice("--basis", a.basis, {kBases}, "Kind of basis (default auto: the smallest file)");
-  options.choice("--effort", a.effort, {kEfforts}, "How long to search (default normal)");
-  add_metadata(options, a);
+  add_clip_choices(options, a);
 }
 
 OrderMode order_of(OrderChoice choice, const std::vector<std::string>& inputs) {
@@ -424,14 +270,13 @@ std::pair<std::string, std::string> name_and_value(const std::string& text,
 
 EncodeOptions encode_options(const EncodeArguments& command) {
   EncodeOptions options;
-  options.basis = command.basis;
+  copy_choices(command, &options);
   if (command.keyframes > 0) {
     if (command.basis != BasisChoice::kAuto && command.basis != BasisChoice::kKeyframes)
       throw Error(ErrorKind::kUsage, "--keyframes goes with --basis keyframes only");
     options.keyframes = command.keyframes;
     options.basis = BasisChoice::kKeyframes;
   }
-  options.select = command.selection;
   const bool fits =
       options.basis == BasisChoice::kKeyframes ||
       (options.basis == BasisChoice::kAuto && command.interpolation != InterpolationChoice::kMsgi);
@@ -440,22 +285,15 @@ EncodeOptions encode_options(const EncodeArguments& command) {
                 command.interpolation == InterpolationChoice::kMsgi
                     ? "--interpolation msgi goes with --basis keyframes or --keyframes"
                     : "--interpolation goes with --basis auto or keyframes");
-  options.interpolation = command.interpolation;
   if (command.keyframe_coder != KeyframePoses::kNative && options.basis != BasisChoice::kKeyframes)
     throw Error(ErrorKind::kUsage, "--keyframe-coder goes with --basis keyframes or --keyframes");
-  options.keyframe_poses = command.keyframe_coder;
   options.order = order_of(command.order, command.inputs);
-  options.attributes = command.attributes;
-  options.attributes.keep = !command.no_attributes;
   if (!command.normal_error.empty())
     options.attributes.normals = parse_positive(command.normal_error, "--store-normals");
   if (!command.attribute_error.empty()) {
     options.attributes.error = parse_bound(command.attribute_error, "--attribute-error");
   }
-  options.root_motion = command.root_motion;
   options.metadata = metadata_of(command);
-  options.effort = command.effort;
-  options.smallest = command.smallest;
   options.most_bytes =
       command.memory.empty() ? half_of_machine() : parse_size(command.memory, "--memory");
   options.encoder = fmt::format("anicodec {}", version());

@@ -7,6 +7,7 @@
 #include "codec/encode_live.h"
 #include "codec/encode_massaged.h"
 #include "codec/sequence/mesh_sequence.h"
+#include "tools/inputs/encode_choices.h"
 #include "tools/io/load_sequence.h"
 #include "tools/options/options.h"
 
@@ -18,63 +19,19 @@
 
 namespace anicodec::tools {
 
-/// The treatment of frames whose faces differ: an error, meshes of one file, or one mesh that has
-/// the faces of the first frame.
-enum class TopologyChanges { kRefuse, kKeep, kTransfer };
-
-/// The part of the source's order that is kept. kAuto: that of the vertices, but nothing of scenes (glTF, FBX
-/// and what else assimp reads), which carry their own faces and attributes: nobody counts on the
-/// numbers of their vertices.
-enum class OrderChoice { kAuto, kVertices, kFree, kAll };
-
-/// Targets that have a name.
-enum class Quality : uint8_t { kGood, kBetter, kBest };
-
-inline constexpr Word<Effort> kEfforts[] = {
-    {Effort::kFast, "fast"}, {Effort::kNormal, "normal"}, {Effort::kBest, "best"}};
-
 /// The arguments of encode on the command line.
-struct EncodeArguments {
+struct EncodeArguments : EncodeChoices {
   std::vector<std::string> inputs;
   std::string output, mesh, clip, clips, names, batch, memory, part;
-  std::string kg, max_error, rmse, displacement, sted, size, bpfv;
-  std::optional<Quality> quality;
-  bool lossless = false;
-  BasisChoice basis = BasisChoice::kAuto;
-  uint32_t keyframes = 0;
-  KeyframeMethod selection = KeyframeMethod::kPivot;
-  std::optional<InterpolationChoice> interpolation;
-  KeyframePoses keyframe_coder = KeyframePoses::kNative;
-  OrderChoice order = OrderChoice::kAuto;
-  Effort effort = Effort::kNormal;
-  bool smallest = false;
-  TopologyChanges topology_changes = TopologyChanges::kRefuse;
-  bool split_objects = false;
-  MassageMode massage = MassageMode::kOff;
-  double massage_strength = 0.5;
-  std::string massage_tolerance;
-  std::string rate, unit;
-  UpAxis up = UpAxis::kUnknown;
-  bool loop = false;
   bool live = false;
-  double piece = 1;                 ///< of a live stream, seconds
-  double key_every = kKeyEvery;     ///< the same
-  std::string box;                  ///< of a live stream: the diagonal that percentages are of
-  std::vector<std::string> events;  ///< [CLIP:]NAME=SECONDS
+  double piece = 1;              ///< of a live stream, seconds
+  double key_every = kKeyEvery;  ///< the same
+  std::string box;               ///< of a live stream: the diagonal that percentages are of
   std::vector<std::string>
       given;  ///< "--option=value" for all that an output depends on beside its clip
-  std::vector<std::string> metadata;  ///< KEY=VALUE
-  std::string metadata_file;          ///< a JSON object
-  bool root_motion = false;
   bool allow_outside = false;
   bool no_weld = false;
   std::string origin;  ///< "auto", "none" or "X,Y,Z"; empty: auto
-  bool no_attributes = false;
-  AttributeOptions attributes;
-  std::string attribute_error, normal_error;
-  std::string fields;  ///< names of the numbers that are kept, "none"; empty: all
-  std::vector<std::string> field_errors;  ///< NAME=X[%]|exact
-  std::vector<std::string> field_units;   ///< NAME=TEXT
   /// Told what of the input is left out; may be empty.
   std::function<void(const std::string& text)> note;
 };

@@ -9,17 +9,12 @@ import os
 import sys
 from typing import Any, Callable, Dict, Iterator, List, NoReturn, Optional, Sequence, Tuple
 
+from ._options import COMMAND
 from .clip import Clip, open as open_clip
 from .errors import AbsentError, CorruptError, UnsupportedError
 
 #: Options of the command that the package has under the same names, and their types.
-_OPTIONS: Dict[str, Any] = {
-    **dict.fromkeys(("max-error", "rmse", "kg", "displacement", "sted", "quality", "size", "bpfv", "fps", "basis", "order", "unit", "up",
-                     "name", "keyframe-selection", "interpolation", "keyframe-coder", "attribute-error", "massage", "massage-tolerance", "effort"), str),
-    **dict.fromkeys(("keyframes", "uv-bits", "colour-bits", "threads"), int),
-    **dict.fromkeys(("massage-strength", "store-normals"), float)}
-_SWITCHES = ("no-attributes", "lossless", "loop", "smallest", "root-motion")
-
+_OPTIONS: Dict[str, Any] = {**COMMAND, "name": str, "threads": int}
 
 #: Options whose value may look like the name of such a file.
 _OF_TEXT = ("--meta", "--name", "--event", "--clip", "--clips", "--field-error", "--field-unit")
@@ -64,9 +59,10 @@ class Parser(argparse.ArgumentParser):
         self.add_argument("--field-unit", action="append", default=[], metavar="NAME=TEXT")
         self.add_argument("-j", dest="threads", type=int)
         for name, kind in _OPTIONS.items():
-            self.add_argument("--" + name, type=kind)
-        for name in _SWITCHES:
-            self.add_argument("--" + name, action="store_true", default=None)
+            if kind is bool:
+                self.add_argument("--" + name, action="store_true", default=None)
+            else:
+                self.add_argument("--" + name, type=kind)
 
     def error(self, message: str) -> NoReturn:
         raise Fault(f"{message}; `{self.prog} --help` of {self._kind} lists what there is", 1)
@@ -124,8 +120,6 @@ def _encoding_options(given: Dict[str, Any]) -> Dict[str, Any]:
         options["max_bytes"] = _bytes_of(options.pop("memory"))
     if options.get("origin") not in (None, "auto", "none"):
         options["origin"] = options["origin"].split(",")
-    if "massage_tolerance" in options:
-        options["massage_tolerance"] = float(options["massage_tolerance"])
     options.update({name: value for name, value in (("field_errors", bounds), ("field_units", units)) if value})
     if metadata:
         options["metadata"] = metadata

@@ -14,15 +14,11 @@ import numpy as np
 
 from . import _anicodec, _arrays, _page
 from ._convert import PLAYERS, to_package
+from ._words import DOMAIN, SAMPLING, SIDE, UP_AXIS, WRAP
 from .errors import CorruptError, FrameError, InputError, LimitError
 from .material import Material, from_file
 
-_SAMPLING = {"step": 0, "linear": 1, "cubic": 2}
-_SIDES = {"any": 0, "front": 1, "back": 2}
-_WRAP = {"clamp": 0, "loop": 1, "ping-pong": 2}
-KINDS = ("uv", "normal", "tangent", "colour", "custom", "material", "part")
-DOMAINS = ("vertices", "corners", "polygons")
-UP = (None, "y", "z")
+UP = (None, *(word for word in UP_AXIS if word != "unknown"))
 Blend = Tuple[Union[int, str], float, float]  #: a clip, seconds of it, and its weight
 
 
@@ -108,6 +104,14 @@ class ClipInfo(NamedTuple):
         return slice(self.first_frame, self.first_frame + self.frame_count)
 
 
+def _clip_info(clip: Dict[str, Any]) -> ClipInfo:
+    return ClipInfo(**{name: Fraction(*clip["rate"]) if name == "fps" else clip[name] for name in ClipInfo._fields})
+
+
+def _root_motion(motion: Dict[str, Any]) -> RootMotion:
+    return RootMotion(motion["turn"], motion["move"], motion["pivot"], np.array(motion["matrix"]).reshape(3, 4))
+
+
 #: Frames whose numbers are handed over in one list.
 _FRAMES_AT_ONCE = 4096
 
@@ -166,7 +170,7 @@ class Mesh:
             for i in range(self._mesh["attribute_count"]):
                 a = self._asset.attribute(self._number, i)
                 field = self._clip.field(a["name"]) if a["values"].ndim == 2 else {}
-                found.append(Attribute(a["name"], KINDS[a["kind"]], DOMAINS[a["domain"]], a["values"],
+                found.append(Attribute(a["name"], a["kind"], a["domain"], a["values"],
                                        tuple(a.get("labels", ())), a["moves"],
                                        tuple(from_file(look) for look in a.get("looks", ())),
                                        str(field.get("unit", "")), field.get("whole") is True))
@@ -233,14 +237,14 @@ class Mesh:
     def _moment(self, seconds: float, loop: bool, sampling: str, wrap: Optional[str], clip: Union[None, int, str],
                 blend: Optional[Blend], blend_wrap: Optional[str]) -> tuple:
         """Clip, time, sampling, wrap, and what is blended into them, as the extension module takes them."""
-        ends = chosen(_WRAP, wrap or ("loop" if loop else "clamp"), "wrap")
+        ends = chosen(WRAP, wrap or ("loop" if loop else "clamp"), "wrap")
         if blend is None:
             blended = (0, 0.0, ends, 0.0)
         else:
             other, moment, weight = blend
-            ends_of_other = ends if blend_wrap is None else chosen(_WRAP, blend_wrap, "wrap")
+            ends_of_other = ends if blend_wrap is None else chosen(WRAP, blend_wrap, "wrap")
             blended = (self._clip.clip_number(other), float(moment), ends_of_other, float(weight))
-        return (self._clip.clip_number(clip), float(seconds), chosen(_SAMPLING, sampling, "sampling"), ends, *blended)
+        return (self._clip.clip_number(clip), float(seconds), chosen(SAMPLING, sampling, "sampling"), ends, *blended)
 
     def attribute_at(self, number: int, seconds: float, loop: bool = False, sampling: str = "linear",
                      out: Optional[np.ndarray] = None, clip: Union[None, int, str] = None,
@@ -283,12 +287,12 @@ class Mesh:
             self._triangles = self.triangles
         found = self._asset.intersect_ray(self._number, *moment, _three(origin, float, "origin"),
                                           _three(direction, float, "direction"), float(farthest),
-                                          chosen(_SIDES, side, "side"), self._triangles)
+                                          chosen(SIDE, side, "side"), self._triangles)
         if found is None:
             return None
         triangle, distance, weights, met = found
         vertices = tuple(int(vertex) for vertex in self._triangles[triangle])
-        return Hit(distance, triangle, vertices, tuple(weights), ("any", "front", "back")[met])
+        return Hit(distance, triangle, vertices, tuple(weights), tuple(SIDE)[met])
 
     def normals(self, frame: Union[int, np.ndarray], crease: float = 0, per_corner: bool = False,
                 source_edges: bool = False, out: Optional[np.ndarray] = None) -> np.ndarray:
@@ -332,11 +336,11 @@ class Clip:
         self._asset = _anicodec.Asset(self.data, quality, max_bytes, list(clips), in_place, inexact)
         self._arguments = (quality, max_bytes, tuple(clips), in_place, inexact)
         self.info: Dict[str, Any] = self._asset.info()  #: counts, timing, axes, units and the promise of the file
-        self.info["up"] = UP[self.info["up"]]
+        self.info["up"] = None if self.info["up"] == "unknown" else self.info["up"]
         self.meshes = tuple(Mesh(self, m) for m in range(self.info["mesh_count"]))
         self._fields: Optional[Dict[str, Any]] = None
         #: The clips that were opened; frames count through them.
-        self.clips = tuple(ClipInfo(**{**c, "fps": Fraction(*c["fps"])}) for c in self._asset.clips())
+        self.clips = tuple(_clip_info(c) for c in self._asset.clips())
 
     @property
     def name(self) -> str:
@@ -392,18 +396,16 @@ class Clip:
     def root_motion(self, seconds: float, clip: Union[None, int, str] = None, sampling: str = "linear",
                     wrap: str = "clamp") -> RootMotion:
         """The motion of the whole at a time of a clip, part of the positions or not; none where it is not apart."""
-        turn, move, pivot, matrix = self._asset.root_motion(
-            self.clip_number(clip), float(seconds), chosen(_SAMPLING, sampling, "sampling"), chosen(_WRAP, wrap, "wrap"))
-        return RootMotion(turn, move, pivot, np.array(matrix).reshape(3, 4))
+        return _root_motion(self._asset.root_motion(
+            self.clip_number(clip), float(seconds), chosen(SAMPLING, sampling, "sampling"), chosen(WRAP, wrap, "wrap")))
 
     def root_step(self, begin: float, end: float, clip: Union[None, int, str] = None, sampling: str = "linear",
                   wrap: str = "loop") -> RootMotion:
         """The step of a character from one time to another, in the axes that it has at `begin`: its matrix times this one
         is the next. A loop goes on at its end from where it is."""
-        turn, move, pivot, matrix = self._asset.root_step(
-            self.clip_number(clip), float(begin), float(end), chosen(_SAMPLING, sampling, "sampling"),
-            chosen(_WRAP, wrap, "wrap"))
-        return RootMotion(turn, move, pivot, np.array(matrix).reshape(3, 4))
+        return _root_motion(self._asset.root_step(
+            self.clip_number(clip), float(begin), float(end), chosen(SAMPLING, sampling, "sampling"),
+            chosen(WRAP, wrap, "wrap")))
 
     def time(self, frame: int) -> float:
         """Seconds at which a frame is shown, from the first of its clip on."""

@@ -13,26 +13,14 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _anicodec, _arrays
-from .clip import DOMAINS, KINDS, UP, chosen
+from ._options import CAP_PERCENT, CHOICES, ERROR_PERCENT, FLAGS, GOALS, LOSSLESS, NUMBERS, PERCENT, QUALITIES
+from ._words import ATTRIBUTE_KIND, BOUND, DOMAIN
+from .clip import UP, chosen
 from .errors import InputError
 from .material import Material, to_file
 
-_PERCENT, _CAP_PERCENT, _ERROR_PERCENT, _NO_ATTRIBUTES, _ROOT_MOTION, _LOSSLESS, _SMALLEST = 1, 2, 4, 8, 16, 32, 64
-_GOALS = {"max_error": 1, "kg": 2, "rmse": 3, "size": 4, "bpfv": 5, "displacement": 6, "sted": 7}
-_QUALITIES = {"good": 0.05, "better": 0.02, "best": 0.01}  # as STED
-_CHOICES = {"basis": {"auto": 0, "keyframes": 1, "eigenshapes": 2, "eigentrajectories": 3},
-            "keyframe_selection": {"pivot": 0, "gas": 1, "uniform": 2},
-            "interpolation": {"linear": 1, "msgi": 2, "auto": 3},
-            "keyframe_coder": {"native": 0, "draco": 1, "auto": 2},
-            "massage": {"off": 0, "on": 1, "auto": 2},
-            "effort": {"normal": 0, "fast": 1, "best": 2},
-            "order": {"auto": 0, "vertices": 0, "free": 1, "all": 2}}
-_NUMBERS = ("keyframes", "threads", "max_bytes", "uv_bits", "colour_bits", "massage_strength",
-            "massage_tolerance", "store_normals")
-_FLAGS = {"no_attributes": _NO_ATTRIBUTES, "root_motion": _ROOT_MOTION, "smallest": _SMALLEST}
-_SWITCHES = ("quality", "lossless", "attribute_error", "metadata", *_FLAGS)
-_DOMAINS = {word: number for number, word in enumerate(DOMAINS)}
-_BOUNDS = {"usual": 0, "units": 1, "percent": 2, "exact": 3}
+_NUMBERS = {**NUMBERS, "threads": "threads", "max_bytes": "max_bytes"}
+_SWITCHES = ("quality", "lossless", "attribute_error", "metadata", *FLAGS)
 _UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0, "in": 0.0254, "ft": 0.3048}
 
 Progress = Callable[[str, float], Optional[bool]]
@@ -116,19 +104,25 @@ def _size(value: Any) -> float:
         raise InputError(f"size must be a number of bytes or a text as '40k', not {value!r}") from None
 
 
+def _number(value: Any, name: str) -> Any:
+    if not hasattr(value, "__float__") and not hasattr(value, "__index__"):
+        raise TypeError(f"{name} is not a number that fits")
+    return value
+
+
 def _goal(options: Dict[str, Any]) -> Dict[str, Any]:
     """The target among the options, taken out of them."""
     quality = options.pop("quality", None)
-    given = {name: value for name in _GOALS if (value := options.pop(name, None)) is not None}
+    given = {name: value for name in GOALS if (value := options.pop(name, None)) is not None}
     if quality is not None:
         if "sted" in given:
             raise InputError("quality and sted are two targets")
-        given["sted"] = chosen(_QUALITIES, quality, "quality")
+        given["sted"] = chosen(QUALITIES, quality, "quality")
     choices: Dict[str, Any] = {"flags": 0}
     if options.pop("lossless", False):
         if given:
             raise InputError(f"lossless goes without {next(iter(given))}")
-        choices["flags"] |= _LOSSLESS
+        choices["flags"] |= LOSSLESS
     cap = given.pop("max_error", None) if len(given) > 1 else None
     if len(given) > 1:
         raise InputError(f"{' and '.join(given)} are two targets; there is one, and max_error may stand beside it")
@@ -137,30 +131,30 @@ def _goal(options: Dict[str, Any]) -> Dict[str, Any]:
                            (_size(value) if name == "size" else _length(value, name)[0], False))
         if not number > 0 or not np.isfinite(number):
             raise InputError(f"{name} must be greater than 0, not {value!r}")
-        choices.update(goal=_GOALS[name], goal_value=number)
-        choices["flags"] |= _PERCENT if percent else 0
+        choices.update(goal=GOALS[name], goal_value=number)
+        choices["flags"] |= PERCENT if percent else 0
     if cap is not None:
         choices["max_error"], percent = _length(cap, "max_error")
-        choices["flags"] |= _CAP_PERCENT if percent else 0
+        choices["flags"] |= CAP_PERCENT if percent else 0
     return choices
 
 
 def _choices(options: Dict[str, Any]) -> Dict[str, Any]:
     """Options as the extension module takes them. An unknown option is an error."""
     choices = _goal(options)
-    for name, table in _CHOICES.items():
+    for name, (field, table) in CHOICES.items():
         value = options.pop(name, None)
         if value is not None:
-            choices[name] = chosen(table, value, name)
-    for name in _NUMBERS:
+            choices[field] = chosen(table, value, name)
+    for name, field in _NUMBERS.items():
         value = options.pop(name, None)
         if value is not None:
-            choices[name] = value
+            choices[field] = _number(value, name)
     error = options.pop("attribute_error", None)
     if error is not None:
         choices["attribute_error"], percent = _length(error, "attribute_error")
-        choices["flags"] |= _ERROR_PERCENT if percent else 0
-    for name, flag in _FLAGS.items():
+        choices["flags"] |= ERROR_PERCENT if percent else 0
+    for name, flag in FLAGS.items():
         choices["flags"] |= flag if options.pop(name, False) else 0
     metadata = options.pop("metadata", None)
     if metadata:
@@ -172,7 +166,7 @@ def _choices(options: Dict[str, Any]) -> Dict[str, Any]:
 
 def option_names() -> List[str]:
     """The options of encode() and encode_meshes(), by name."""
-    return [*_GOALS, *_CHOICES, *_NUMBERS, *_SWITCHES,
+    return [*GOALS, *CHOICES, *_NUMBERS, *_SWITCHES,
             *(name for function in (encode, encode_meshes) for name in inspect.signature(function).parameters)]
 
 
@@ -212,11 +206,11 @@ class _Fields:
     @staticmethod
     def _bound(name: str, error: Bound) -> Tuple[int, float]:
         if error == "exact":
-            return _BOUNDS["exact"], 0.0
+            return BOUND["exact"], 0.0
         number, percent = _length(error, f"the error of {name}")
         if not number > 0 or not np.isfinite(number):
             raise InputError(f"the error of {name} must be greater than 0, not {error!r}")
-        return _BOUNDS["percent" if percent else "units"], number
+        return BOUND["percent" if percent else "units"], number
 
     def check(self, meshes: Sequence[SourceMesh]) -> None:
         """Refuses a name that no attribute has."""
@@ -235,7 +229,7 @@ class _Fields:
     def of(self, name: str, kind: str, values: Any) -> Tuple[int, float, str]:
         """Bound, error and unit of an attribute. Numbers of an integer type are exact as a rule."""
         is_whole = kind == "custom" and getattr(values, "dtype", np.dtype(float)).kind in "biu"
-        bound, error = self._bounds.get(name, (_BOUNDS["exact" if is_whole else "usual"], 0.0))
+        bound, error = self._bounds.get(name, (BOUND["exact" if is_whole else "usual"], 0.0))
         return bound, error, self._units.get(name, "")
 
 
@@ -289,7 +283,7 @@ class _Adder:
             if labels.shape != (len(self._corners),):
                 raise InputError(f"shared_normals must be a number for each of {len(self._corners)} corners, "
                                  f"not {_arrays.shape_text(labels)}")
-            encoder.add_attribute(number, "", KINDS.index("normal"), DOMAINS.index("corners"), 0, 1, None,
+            encoder.add_attribute(number, "", ATTRIBUTE_KIND["normal"], DOMAIN["corners"], 0, 1, None,
                                   _arrays.indices(labels, "shared_normals"), [], [], 0, 0, "")
         for kind, labels in (("material", mesh.materials), ("part", mesh.parts)):
             if labels is not None:
@@ -308,12 +302,12 @@ class _Adder:
         elements = values.shape[1 if moving else 0] if values.ndim in (2, 3) else -1
         if elements not in self._counts or values.shape[-1] not in components:
             wanted = " or ".join(map(str, components)) if len(components) < 5 else "1 to 16"
-            domains = [f"{count} {domain}" for count, domain in zip(self._counts, DOMAINS)]
+            domains = [f"{count} {domain}" for count, domain in zip(self._counts, DOMAIN)]
             raise InputError(f"{what} must be {', '.join(domains[:-1])} or {domains[-1]} x {wanted}, not {_arrays.shape_text(values)}")
-        domain = self._counts.index(elements) if told is None else chosen(_DOMAINS, told, "domain")
+        domain = self._counts.index(elements) if told is None else chosen(DOMAIN, told, "domain")
         if self._counts[domain] != elements:
             raise InputError(f"{what} must be {self._counts[domain]} {told}, not {elements}")
-        self._encoder.add_attribute(self._number, name, KINDS.index(kind), domain, values.shape[-1], frames, values,
+        self._encoder.add_attribute(self._number, name, ATTRIBUTE_KIND[kind], domain, values.shape[-1], frames, values,
                                     None, [], [], *self._choice.of(name, kind, given))
 
     def _move(self, name: str, kind: str, what: str, given: Moving, components: Tuple[int, ...]) -> None:
@@ -321,9 +315,9 @@ class _Adder:
             raise InputError(f"{what}: a Moving is of a live stream; give frames of values")
         if kind == "normal" or given.components not in components:
             raise InputError(f"{what} cannot move with {given.components} components")
-        domain = chosen(_DOMAINS, given.domain, "domain")
+        domain = chosen(DOMAIN, given.domain, "domain")
         self.moving.append((kind, name, (self._counts[domain], given.components)))
-        self._encoder.add_attribute(self._number, name, KINDS.index(kind), domain, given.components, 0, None, None, [], [],
+        self._encoder.add_attribute(self._number, name, ATTRIBUTE_KIND[kind], domain, given.components, 0, None, None, [], [],
                                     *self._choice.of(name, kind, None))
 
     def _labels(self, kind: str, names: Sequence[str], of_polygon: Any,
@@ -332,7 +326,7 @@ class _Adder:
         if labels.shape != (self._counts[2],):
             raise InputError(f"{kind}s must be a number for each of {self._counts[2]} polygons, "
                              f"not {_arrays.shape_text(labels)}")
-        self._encoder.add_attribute(self._number, "", KINDS.index(kind), DOMAINS.index("polygons"), 0, 1, None,
+        self._encoder.add_attribute(self._number, "", ATTRIBUTE_KIND[kind], DOMAIN["polygons"], 0, 1, None,
                                     _arrays.indices(labels.astype(np.int64) + 1, kind), list(names),
                                     to_file(looks, names), 0, 0, "")
 

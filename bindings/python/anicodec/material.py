@@ -5,9 +5,8 @@ from __future__ import annotations
 
 from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
 
+from ._words import ALPHA
 from .errors import InputError
-
-ALPHA_MODES = ("opaque", "mask", "blend")
 
 
 class Material(NamedTuple):
@@ -29,16 +28,16 @@ class Material(NamedTuple):
 
 def from_file(look: Optional[Dict[str, Any]]) -> Optional[Material]:
     """A material as the extension module gives it."""
-    return None if look is None else Material(**{**look, "alpha": ALPHA_MODES[look["alpha"]]})
+    return None if look is None else Material(**{name: look[name] for name in Material._fields})
 
 
 def _to_file(look: Material) -> Tuple[List[float], List[str]]:
     if len(look.base_colour) != 4 or len(look.emissive) != 3:
         raise InputError("the base colour of a material has 4 numbers, what it emits 3")
-    if look.alpha not in ALPHA_MODES:
-        raise InputError(f"alpha is one of {', '.join(ALPHA_MODES)}, not {look.alpha!r}")
+    if look.alpha not in ALPHA:
+        raise InputError(f"alpha is one of {', '.join(ALPHA)}, not {look.alpha!r}")
     numbers = [*look.base_colour, look.metallic, look.roughness, *look.emissive, look.alpha_cutoff]
-    return [*map(float, numbers), ALPHA_MODES.index(look.alpha), bool(look.double_sided)], list(look[-5:])
+    return [*map(float, numbers), ALPHA[look.alpha], bool(look.double_sided)], list(look[-5:])
 
 
 def to_file(looks: Sequence[Optional[Material]], names: Sequence[str]) -> List[Optional[Tuple[List[float], List[str]]]]:

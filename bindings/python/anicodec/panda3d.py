@@ -7,7 +7,8 @@ from typing import Any, Dict, List, Optional, Union
 
 import numpy as np
 
-from .clip import Clip, Mesh, chosen, open as open_clip, _WRAP
+from ._words import WRAP
+from .clip import Clip, Mesh, chosen, open as open_clip
 from .errors import InputError
 
 try:
@@ -117,7 +118,7 @@ class ClipActor(NodePath):
         for surface in self._surfaces:
             self._add(turned, surface)
         self._names = {clip.name: number for number, clip in enumerate(self.clip.clips)}
-        self._playing, self._time, self._rate, self._wrap = 0, 0.0, 0.0, _WRAP["loop"]
+        self._playing, self._time, self._rate, self._wrap = 0, 0.0, 0.0, WRAP["loop"]
         self._play_rate = 1.0
         self._fade: Optional[Dict[str, float]] = None
         self._task: Any = None
@@ -164,7 +165,7 @@ class ClipActor(NodePath):
 
     def _begin(self, name: Optional[str], wrap: str) -> None:
         self._playing, self._time, self._fade = self._number(name), 0.0, None
-        self._wrap, self._rate = chosen(_WRAP, wrap, "wrap"), self._play_rate
+        self._wrap, self._rate = chosen(WRAP, wrap, "wrap"), self._play_rate
         self.show_time(0)
 
     def stop(self) -> None:

@@ -4,6 +4,7 @@
 // Opened clips.
 #include "bindings/python/binding/binding.h"
 #include "bindings/python/binding/instance.h"
+#include "bindings/python/binding/struct_dicts.h"
 
 #include <algorithm>
 #include <memory>
@@ -99,47 +100,18 @@ class Asset {
 
   /// Clock and errors are those of the first clip.
   nb::dict info() const {
-    const anic_clip& first = clips_.front();
-    nb::dict d;
-    d["name"] = text_of(first.name);
-    d["encoder"] = text_of(info_.encoder);
-    d["mesh_count"] = info_.mesh_count;
-    d["segment_count"] = info_.segment_count;
+    nb::dict d = dict_of(info_);
+    d.update(dict_of(clips_.front()));
+    nb::del(d["first_frame"]);
+    nb::del(d["open"]);
     d["frame_count"] = frame_count_;
-    d["rate"] = nb::make_tuple(first.rate_numerator, first.rate_denominator);
-    d["rate_assumed"] = first.rate_assumed != 0;
-    d["uneven"] = first.uneven != 0;
-    d["loop"] = first.loop != 0;
-    d["closed"] = first.closed != 0;
-    d["massaged"] = first.massaged != 0;
-    d["up"] = static_cast<int>(info_.up);
-    d["order"] = static_cast<int>(info_.order);
-    d["start_time"] = first.start_time;
-    d["duration"] = first.duration;
-    d["loop_duration"] = first.loop_duration;
-    d["metres_per_unit"] = info_.metres_per_unit;
-    d["origin"] = nb::make_tuple(info_.origin[0], info_.origin[1], info_.origin[2]);
-    d["diagonal"] = first.diagonal;
-    d["max_error"] = first.max_error;
-    d["rmse"] = first.rmse;
-    d["kg"] = first.kg;
-    d["max_displacement_error"] = first.max_displacement_error;
-    d["surface_error"] = first.surface_error;
-    d["resident_bytes"] = info_.resident_bytes;
     return d;
   }
 
   nb::dict mesh(uint32_t number) const {
     anic_mesh mesh = ANIC_INIT(anic_mesh);
     check_status(anic_get_mesh(asset_.get(), number, &mesh));
-    nb::dict d;
-    d["name"] = text_of(mesh.name);
-    d["vertex_count"] = mesh.vertex_count;
-    d["polygon_count"] = mesh.polygon_count;
-    d["corner_count"] = mesh.corner_count;
-    d["triangle_count"] = mesh.triangle_count;
-    d["attribute_count"] = mesh.attribute_count;
-    return d;
+    return dict_of(mesh);
   }
 
   nb::tuple polygons(uint32_t mesh) const {
@@ -161,12 +133,7 @@ class Asset {
   nb::dict attribute(uint32_t mesh, uint32_t number) const {
     anic_attribute a = ANIC_INIT(anic_attribute);
     check_status(anic_get_attribute(asset_.get(), mesh, number, &a));
-    nb::dict d;
-    d["name"] = text_of(a.name);
-    d["kind"] = static_cast<int>(a.kind);
-    d["domain"] = static_cast<int>(a.domain);
-    d["components"] = a.components;
-    d["moves"] = a.moves != 0;
+    nb::dict d = dict_of(a);
     if (a.components > 0) {
       auto values = new_array<float>({a.count, a.components});
       if (values.nbytes() > 0)
@@ -195,22 +162,7 @@ class Asset {
     if (status == ANIC_E_ABSENT)
       return nb::none();
     check_status(status);
-    const float(&c)[4] = m.base_colour;
-    const float(&e)[3] = m.emissive;
-    nb::dict d;
-    d["base_colour"] = nb::make_tuple(c[0], c[1], c[2], c[3]);
-    d["metallic"] = m.metallic;
-    d["roughness"] = m.roughness;
-    d["emissive"] = nb::make_tuple(e[0], e[1], e[2]);
-    d["alpha"] = static_cast<int>(m.alpha);
-    d["alpha_cutoff"] = m.alpha_cutoff;
-    d["double_sided"] = m.double_sided != 0;
-    d["base_colour_texture"] = text_of(m.base_colour_texture);
-    d["metallic_roughness_texture"] = text_of(m.metallic_roughness_texture);
-    d["normal_texture"] = text_of(m.normal_texture);
-    d["occlusion_texture"] = text_of(m.occlusion_texture);
-    d["emissive_texture"] = text_of(m.emissive_texture);
-    return d;
+    return dict_of(m);
   }
 
   double frame_time(uint32_t frame) const {
@@ -342,19 +294,8 @@ class Asset {
     nb::list all;
     for (size_t i = 0; i < clips_.size(); ++i) {
       const anic_clip& clip = clips_[i];
-      nb::dict d;
-      d["name"] = text_of(clip.name);
+      nb::dict d = dict_of(clip);
       d["first_frame"] = first_frames_[i];
-      d["frame_count"] = clip.frame_count;
-      d["duration"] = clip.duration;
-      d["loop_duration"] = clip.loop_duration;
-      d["loop"] = clip.loop != 0;
-      d["fps"] = nb::make_tuple(clip.rate_numerator, clip.rate_denominator);
-      d["start_time"] = clip.start_time;
-      d["max_error"] = clip.max_error;
-      d["rmse"] = clip.rmse;
-      d["kg"] = clip.kg;
-      d["max_displacement_error"] = clip.max_displacement_error;
       nb::list events;
       for (uint32_t e = 0; e < anic_get_event_count(asset_.get(), clip_numbers_[i]); ++e) {
         anic_event event = ANIC_INIT(anic_event);
@@ -367,31 +308,21 @@ class Asset {
     return all;
   }
 
-  /// Turn, move, pivot and matrix, row-major.
-  nb::tuple root_motion(uint32_t clip, double seconds, int sampling, int wrap) const {
+  nb::dict root_motion(uint32_t clip, double seconds, int sampling, int wrap) const {
     anic_root_motion motion = ANIC_INIT(anic_root_motion);
     check_status(anic_get_root_motion(asset_.get(), clip_of(clip), seconds,
                                       static_cast<anic_sampling>(sampling),
                                       static_cast<anic_wrap>(wrap), &motion));
-    return tuple_of(motion);
+    return dict_of(motion);
   }
 
   /// The same from one time to another.
-  nb::tuple root_step(uint32_t clip, double from, double to, int sampling, int wrap) const {
+  nb::dict root_step(uint32_t clip, double from, double to, int sampling, int wrap) const {
     anic_root_motion motion = ANIC_INIT(anic_root_motion);
     check_status(anic_get_root_step(asset_.get(), clip_of(clip), from, to,
                                     static_cast<anic_sampling>(sampling),
                                     static_cast<anic_wrap>(wrap), &motion));
-    return tuple_of(motion);
-  }
-
-  static nb::tuple tuple_of(const anic_root_motion& motion) {
-    const double *m = motion.move, *p = motion.pivot;
-    nb::list matrix;
-    for (float x : motion.matrix)
-      matrix.append(x);
-    return nb::make_tuple(motion.turn, nb::make_tuple(m[0], m[1], m[2]),
-                          nb::make_tuple(p[0], p[1], p[2]), matrix);
+    return dict_of(motion);
   }
 
   bool shows(uint32_t mesh, uint32_t frame) {

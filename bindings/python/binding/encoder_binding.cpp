@@ -4,6 +4,7 @@
 // The encoder, over its C interface.
 #include "bindings/python/binding/binding.h"
 #include "bindings/python/binding/live_binding.h"
+#include "bindings/python/binding/struct_dicts.h"
 
 #include <anicodec/encode.h>
 
@@ -239,26 +240,7 @@ Options::Options(const nb::dict& choices) {
       throw nb::type_error((std::string(key) + " is not a number that fits").c_str());
     field = static_cast<Field>(value);
   };
-  set("goal", options.goal);
-  set("order", options.order);
-  set("goal_value", options.goal_value);
-  set("max_error", options.max_error);
-  set("flags", options.flags);
-  set("max_bytes", options.max_bytes);
-  set("threads", options.threads);
-  set("effort", options.effort);
-  set("basis", options.basis);
-  set("keyframes", options.keyframes);
-  set("keyframe_selection", options.selection);
-  set("interpolation", options.interpolation);
-  set("keyframe_coder", options.keyframe_coder);
-  set("massage", options.massage);
-  set("uv_bits", options.uv_bits);
-  set("colour_bits", options.colour_bits);
-  set("massage_strength", options.massage_strength);
-  set("massage_tolerance", options.massage_tolerance);
-  set("attribute_error", options.attribute_error);
-  set("store_normals", options.normal_error);
+  each_number(options, set);
   if (choices.contains("metadata")) {
     metadata = nb::cast<std::string>(choices["metadata"]);
     options.metadata = metadata.c_str();
@@ -282,16 +264,7 @@ nb::tuple Encoder::encode(const nb::dict& choices, const nb::object& progress) {
     throw error;
   }
   check(status);
-  nb::dict measured;
-  measured["max_error"] = result.max_error;
-  measured["rmse"] = result.rmse;
-  measured["kg"] = result.kg;
-  measured["max_displacement_error"] = result.max_displacement_error;
-  measured["diagonal"] = result.diagonal;
-  measured["components"] = result.components;
-  measured["massaged"] = result.massaged != 0;
-  measured["surface_error"] = result.surface_error;
-  return nb::make_tuple(nb::bytes(result.file, result.size), measured);
+  return nb::make_tuple(nb::bytes(result.file, result.size), dict_of(result));
 }
 
 Live Encoder::begin_live(const nb::dict& choices, double piece, double key_every, double box,

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "bindings/python/binding/live_binding.h"
 
+#include "bindings/python/binding/struct_dicts.h"
+
 namespace anicodec::python {
 namespace {
 
@@ -52,31 +54,13 @@ nb::object Live::take(double wait) {
   anic_live_piece piece = ANIC_INIT(anic_live_piece);
   if (!called([&] { return anic_take_live_piece(live_.get(), wait, &piece); }, ANIC_E_ABSENT))
     return nb::none();
-  nb::dict facts;
-  facts["first_frame"] = piece.first_frame;
-  facts["frame_count"] = piece.frame_count;
-  facts["start_time"] = piece.start_time;
-  facts["encode_seconds"] = piece.encode_seconds;
-  facts["max_error"] = piece.max_error;
-  facts["rmse"] = piece.rmse;
-  facts["kg"] = piece.kg;
-  facts["key"] = piece.key != 0;
-  facts["has_mesh"] = piece.has_mesh != 0;
-  return nb::make_tuple(nb::bytes(piece.file, piece.size), facts);
+  return nb::make_tuple(nb::bytes(piece.file, piece.size), dict_of(piece));
 }
 
 nb::dict Live::info() const {
   anic_live_info info = ANIC_INIT(anic_live_info);
   check_status(anic_get_live_info(live_.get(), &info));
-  nb::dict facts;
-  facts["pushed_frames"] = info.pushed_frames;
-  facts["waiting_frames"] = info.waiting_frames;
-  facts["late_frames"] = info.late_frames;
-  facts["waiting_pieces"] = info.waiting_pieces;
-  facts["encode_seconds"] = info.encode_seconds;
-  facts["piece_frames"] = info.piece_frames;
-  facts["ended"] = info.ended != 0;
-  return facts;
+  return dict_of(info);
 }
 
 void bind_live(nb::module_& module) {
