@@ -22,6 +22,7 @@ FOREIGN = ("bindings/web/interface.d.ts", "bindings/csharp/Runtime/Enumerations.
 PRINTED = ("format/", "sdk/", "codec/", "tools/", "bindings/")  # string literals of their C++ and Python are messages and help
 
 OPENING = re.compile(r"(?:Where|What|Of|Those|That which|Whichever of)\b")
+IN_ANY_CASE = re.compile(OPENING.pattern, re.I)  # in public headers: other languages' references open with their words
 CHAINS = [re.compile(pattern, re.I) for pattern in (
     r"\b(?:that|those) of (?:what|that|those|it|which)\b",
     r"\bhow what\b",
@@ -178,7 +179,7 @@ def findings(path, text):
         for sentence, plain in sentences(paragraph):
             if plain.endswith("?"):
                 continue
-            opening = OPENING.match(plain.lstrip("[(\"'* "))
+            opening = (IN_ANY_CASE if "include/anicodec/" in path else OPENING).match(plain.lstrip("[(\"'* "))
             if opening:
                 yield number, f"opens with {opening.group(0)}", sentence
             chains = [found.group(0) for chain in CHAINS for found in chain.finditer(plain)]

@@ -77,17 +77,17 @@ typedef struct anic_source_clip {
   uint32_t rate_denominator; /**< 0 counts as 1 */
   anic_up_axis up;
   uint8_t loop;           /**< meant to be repeated */
-  double start_time;      /**< of frame 0 on the clock of the source, seconds */
+  double start_time;      /**< time of frame 0 on the clock of the source, seconds */
   double metres_per_unit; /**< 0: unknown */
   const double* times; /**< frame_count ascending seconds from frame 0; NULL: evenly by the rate */
   const char* const* event_names; /**< UTF-8, of events: named times */
-  const double* event_seconds;    /**< of each event, from frame 0 on, within the clip */
+  const double* event_seconds;    /**< time of each event, from frame 0 on, within the clip */
   uint32_t event_count;
   double
       origin[3]; /**< finite: taken in double from positions at addresses before they are rounded to
                        float32; those that read() gives count from it */
   uint8_t
-      find_origin; /**< where meshes at addresses alone are small and far from zero, the origin is a
+      find_origin; /**< if meshes at addresses alone are small and far from zero, the origin is a
                           point amid them instead, and the positions are read twice */
 } anic_source_clip;
 
@@ -138,7 +138,7 @@ typedef struct anic_source_mesh {
                               live clip has neither */
   ptrdiff_t vertex_stride; /**< bytes from a vertex to the next; 0: packed */
   ptrdiff_t frame_stride;  /**< bytes from a frame to the next; 0: the frames follow one another */
-  anic_scalar scalar;      /**< of positions */
+  anic_scalar scalar;      /**< type of positions */
   uint32_t run_count;
   const anic_frame_run* runs; /**< frames that show the mesh, ascending; NULL: all. Positions and
                                  attributes that change have a frame for each of them */
@@ -160,7 +160,7 @@ ANIC_API anic_status anic_add_source_mesh(anic_encoder* encoder, const anic_sour
 /** The largest error of the numbers of an attribute. */
 enum anic_bound ANIC_INT32 {
   ANIC_BOUND_USUAL =
-      0, /**< of one that moves attribute_error of anic_encode_options; one that rests has steps of
+      0, /**< if it moves, attribute_error of anic_encode_options; if it rests, steps of
                                uv_bits, of colour_bits, or of a 4095th of its range */
   ANIC_BOUND_UNITS = 1, /**< `error`, in units of its values */
   ANIC_BOUND_PERCENT =
@@ -180,7 +180,7 @@ typedef struct anic_source_attribute {
   uint32_t frames;        /**< frames that `values` has, 1 or all of the mesh; 0 counts as 1 */
   const float* values;    /**< frames x elements x components; NULL in a live clip: it moves, each
                              frame has its values */
-  const uint32_t* labels; /**< of each corner: those of a vertex with the same label share a
+  const uint32_t* labels; /**< for each corner: corners of a vertex with the same label share a
                                      normal (ANIC_ATTRIBUTE_NORMAL). For each polygon: 0 for none, or
                                      one more than the number of a name (ANIC_ATTRIBUTE_MATERIAL,
                                      ANIC_ATTRIBUTE_PART) */
@@ -255,7 +255,7 @@ enum anic_keyframe_coder ANIC_INT32 {
 enum anic_massage ANIC_INT32 {
   ANIC_MASSAGE_OFF = 0,
   ANIC_MASSAGE_ON = 1,
-  ANIC_MASSAGE_AUTO = 2 /**< where the file becomes smaller */
+  ANIC_MASSAGE_AUTO = 2 /**< if the file becomes smaller */
 };
 
 /** How long to search for a small file. Means of five clips at KG 0.1 %, of which README has more. */
@@ -313,8 +313,8 @@ typedef struct anic_encode_options {
   anic_keyframe_coder keyframe_coder;
   anic_massage massage;
   uint32_t uv_bits;         /**< texture coordinates in steps of 2^-uv_bits; 0 means 12 */
-  uint32_t colour_bits;     /**< of a component of a colour; 0 means 8 */
-  double massage_strength;  /**< of shape against distance, between 0 and 1; 0 means 0.5 */
+  uint32_t colour_bits;     /**< bits of a component of a colour; 0 means 8 */
+  double massage_strength;  /**< weight of shape against distance, between 0 and 1; 0 means 0.5 */
   double massage_tolerance; /**< how far the surface may move, units of the clip; 0: any */
   double
       attribute_error; /**< largest error of attributes that change and have no bound of their own; 0: half a step of
@@ -335,12 +335,12 @@ typedef struct anic_encoding {
   double max_error;
   double rmse;
   double kg;             /**< per cent */
-  double diagonal;       /**< of the box around all frames of all clips */
+  double diagonal;       /**< diagonal of the box around all frames of all clips */
   double surface_error;  /**< how far massage moved the surface at most */
-  uint32_t components;   /**< of the largest basis */
-  anic_basis_kind basis; /**< of the first mesh */
+  uint32_t components;   /**< components of the largest basis */
+  anic_basis_kind basis; /**< basis of the first mesh */
   uint8_t massaged;
-  double max_displacement_error; /**< of a vertex's move from frame to frame */
+  double max_displacement_error; /**< error of a vertex's move from frame to frame */
 } anic_encoding;
 
 /**
@@ -366,7 +366,7 @@ typedef struct anic_live anic_live;
 /** A NULL pointer, or 0 in every field: everything by default. */
 typedef struct anic_live_options {
   size_t struct_size;
-  double piece_seconds; /**< of a file; 0: 1 */
+  double piece_seconds; /**< length of a file; 0: 1 */
   double
       key_seconds; /**< a file begins anew so many seconds after the last that did; whoever joins late, or
                          has lost a file, goes on there. 0: 4; below 0: every file does */
@@ -402,10 +402,10 @@ typedef struct anic_live_frame {
   size_t struct_size;
   const void* positions;   /**< x of vertex 0, any alignment */
   ptrdiff_t vertex_stride; /**< bytes from a vertex to the next; 0: packed */
-  anic_scalar scalar;      /**< of positions */
+  anic_scalar scalar;      /**< type of positions */
   uint32_t value_count;    /**< attributes that move: those without `values` */
   const float* const*
-      values; /**< of each of them, in the order in which they were added: elements x
+      values; /**< values of each of them, in the order in which they were added: elements x
                                  components */
 } anic_live_frame;
 
@@ -426,8 +426,8 @@ typedef struct anic_live_piece {
   size_t struct_size;
   const void* file; /**< belongs to the stream, until the next anic_take_live_piece() */
   size_t size;
-  uint64_t first_frame; /**< of the frames that were pushed */
-  double start_time;    /**< of that frame, on the clock of the clip */
+  uint64_t first_frame; /**< first of the frames that were pushed */
+  double start_time;    /**< time of that frame, on the clock of the clip */
   double encode_seconds;
   double max_error;
   double rmse;
@@ -452,7 +452,7 @@ typedef struct anic_live_info {
   uint64_t pushed_frames;
   uint64_t waiting_frames; /**< frames of which no file is made yet */
   uint64_t
-      late_frames; /**< of these, frames of full files that are not begun: 0 while the encoder keeps
+      late_frames; /**< the waiting frames of full files that are not begun: 0 while the encoder keeps
                               up, else how far it is behind */
   uint64_t waiting_pieces; /**< files made, and not taken */
   double encode_seconds;   /**< that the last file took */

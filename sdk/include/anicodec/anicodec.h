@@ -258,9 +258,9 @@ enum {
  */
 typedef struct anic_options {
   size_t struct_size;
-  uint64_t max_vertices;   /**< of one mesh [2^31 - 1] */
+  uint64_t max_vertices;   /**< most of one mesh [2^31 - 1] */
   uint64_t max_frames;     /**< [2^24 - 1] */
-  uint64_t max_components; /**< of one segment [2^20] */
+  uint64_t max_components; /**< most of one segment [2^20] */
   uint64_t max_bytes; /**< opening_bytes of anic_requirements [2^28, and 2^14 for each byte of the
                          file] */
   anic_allocator allocator; /**< copied; `user` must outlive what is made with it */
@@ -288,12 +288,12 @@ typedef struct anic_requirements {
                               bytes of the file excluded */
   uint64_t draco_bytes;   /**< part of opening_bytes that Draco may take from the global heap */
   uint64_t block_bytes; /**< a block for anic_init_block_allocator() in which the asset can open */
-  uint64_t context_bytes; /**< of one context, at most */
+  uint64_t context_bytes; /**< bytes of one context, at most */
   uint32_t mesh_count;
   uint32_t segment_count;
   uint32_t frame_count;
-  uint32_t max_vertices;   /**< of the largest mesh */
-  uint32_t max_components; /**< of the largest segment, as the file has it */
+  uint32_t max_vertices;   /**< vertices of the largest mesh */
+  uint32_t max_components; /**< components of the largest segment, as the file has it */
 } anic_requirements;
 
 /**
@@ -433,7 +433,7 @@ typedef struct anic_asset_info {
   const char* encoder;
   uint32_t mesh_count;
   uint32_t segment_count;
-  uint32_t frame_count;    /**< of all clips */
+  uint32_t frame_count;    /**< frames of all clips */
   uint32_t rate_numerator; /**< frames per second = numerator / denominator; a hint if `uneven` */
   uint32_t rate_denominator;
   anic_up_axis up;
@@ -445,12 +445,12 @@ typedef struct anic_asset_info {
   uint8_t massaged;       /**< the mesh was changed before coding: see surface_error */
   uint8_t partial;        /**< made from a stream that was not complete: parts are missing or
                              coarser */
-  double start_time;      /**< of frame 0 on the clock of the source, seconds: for tools alone.
+  double start_time;      /**< time of frame 0 on the source's clock, seconds: for tools alone.
                              Times in this interface count from frame 0 */
   double duration;        /**< from frame 0 to the last frame, seconds */
-  double loop_duration;   /**< of one turn of ANIC_WRAP_LOOP, seconds */
+  double loop_duration;   /**< one turn of ANIC_WRAP_LOOP, seconds */
   double metres_per_unit; /**< 0: unknown */
-  double diagonal;        /**< of the box around all frames of the source */
+  double diagonal;        /**< diagonal of the box around all frames of the source */
   double max_error;       /**< largest distance of a vertex from its place in the source, at full
                              quality, as the encoder measured it; in units of the clip */
   double rmse;            /**< root of the mean squared error, in units of the clip */
@@ -461,7 +461,7 @@ typedef struct anic_asset_info {
   uint64_t context_bytes;        /**< held by each context */
   double max_displacement_error; /**< largest error of a vertex's move from frame to frame */
   double origin
-      [3]; /**< where the positions of this interface count from, as the source has it: added in double, it
+      [3]; /**< origin of the positions of this interface, as the source has it: added in double, it
                        gives the source's coordinates, which may be too far from zero for float32 */
 } anic_asset_info;
 
@@ -486,7 +486,7 @@ typedef struct anic_clip {
   double start_time;
   double duration;
   double loop_duration;
-  double diagonal; /**< of the box around its frames of the source */
+  double diagonal; /**< diagonal of the box around its frames of the source */
   double max_error;
   double rmse;
   double kg;
@@ -531,10 +531,10 @@ ANIC_API anic_status anic_get_event(const anic_asset* asset, uint32_t clip, uint
 typedef struct anic_mesh {
   size_t struct_size;
   const char* name;
-  uint32_t vertex_count;       /**< of the source, each once */
+  uint32_t vertex_count;       /**< vertices of the source, each once */
   uint32_t coded_vertex_count; /**< distinct vertices: the others are copies that move along */
   uint32_t polygon_count;
-  uint32_t corner_count;    /**< of all polygons */
+  uint32_t corner_count;    /**< corners of all polygons */
   uint32_t triangle_count;  /**< after anic_write_indices() has cut the polygons */
   uint32_t attribute_count; /**< anic_get_attribute() */
 } anic_mesh;
@@ -582,13 +582,13 @@ ANIC_API anic_status anic_get_coded_vertices(const anic_asset* asset, uint32_t m
 enum anic_attribute_kind ANIC_INT32 {
   ANIC_ATTRIBUTE_UV = 0,     /**< v upwards: (0, 0) is the lower left corner of an image; some
                                   graphics interfaces want 1 - v */
-  ANIC_ATTRIBUTE_NORMAL = 1, /**< of the first frame. Without components: labels that say which
+  ANIC_ATTRIBUTE_NORMAL = 1, /**< first frame's normals. Without components: labels that say which
                                 corners share a normal, that is, which edges are hard */
   ANIC_ATTRIBUTE_TANGENT = 2,
   ANIC_ATTRIBUTE_COLOUR = 3, /**< RGB or RGBA, 0 to 1 */
   ANIC_ATTRIBUTE_CUSTOM = 4,
-  ANIC_ATTRIBUTE_MATERIAL = 5, /**< of polygons: names of materials */
-  ANIC_ATTRIBUTE_PART = 6      /**< of polygons: names of the meshes or objects of the source */
+  ANIC_ATTRIBUTE_MATERIAL = 5, /**< names of the polygons' materials */
+  ANIC_ATTRIBUTE_PART = 6      /**< names of the source's meshes or objects, for polygons */
 };
 
 /** The elements that have a value each, as anic_get_polygons() numbers them. */
@@ -854,12 +854,12 @@ enum anic_format ANIC_INT32 {
  */
 typedef struct anic_output {
   size_t struct_size;
-  void* data;    /**< of the first element asked for; any alignment */
+  void* data;    /**< address of the first element asked for; any alignment */
   size_t size;   /**< bytes that may be written from data on */
   size_t stride; /**< bytes from an element to the next; 0: packed */
   anic_format format;
-  float offset[3]; /**< of the 16-bit formats; anic_get_clip_bounds() gives fitting ones */
-  float scale[3];  /**< of the 16-bit formats; 0 counts as 1 */
+  float offset[3]; /**< offset of the 16-bit formats; anic_get_clip_bounds() gives fitting ones */
+  float scale[3];  /**< scale of the 16-bit formats; 0 counts as 1 */
 } anic_output;
 
 /**
@@ -886,7 +886,7 @@ enum anic_value_format ANIC_INT32 {
 /** The place for values of an attribute; written as anic_output is. */
 typedef struct anic_value_output {
   size_t struct_size;
-  void* data;    /**< of the first element asked for; any alignment */
+  void* data;    /**< address of the first element asked for; any alignment */
   size_t size;   /**< bytes that may be written from data on */
   size_t stride; /**< bytes from an element to the next; 0: packed */
   anic_value_format format;
@@ -962,13 +962,13 @@ ANIC_API anic_status anic_get_clip_bounds(const anic_asset* asset, uint32_t mesh
 /** A point of a mesh's surface: vertices of a triangle, and barycentric coordinates in it. */
 typedef struct anic_surface_point {
   uint32_t vertices[3]; /**< in the order of the triangle, counter-clockwise seen from its front */
-  float weights[3];     /**< of the vertices; their sum is 1 */
+  float weights[3];     /**< weights of the vertices; their sum is 1 */
 } anic_surface_point;
 
 /** Axes at a point of the surface, of length 1; the third one is normal x tangent. */
 typedef struct anic_surface_frame {
   float position[3];
-  float normal[3];  /**< of the triangle, on its front */
+  float normal[3];  /**< normal of the triangle, on its front */
   float tangent[3]; /**< from the triangle's first vertex to the second one */
 } anic_surface_frame;
 
@@ -995,9 +995,9 @@ enum anic_side ANIC_INT32 {
 typedef struct anic_ray {
   size_t struct_size;
   float origin[3];
-  float direction[3]; /**< of any length but 0 */
+  float direction[3]; /**< any length but 0 */
   float farthest;     /**< distance that still counts, in lengths of `direction`; 0: any */
-  anic_side side;     /**< of triangles that count */
+  anic_side side;     /**< side of triangles that counts */
 } anic_ray;
 
 /** The first point of the surface on a ray. */
@@ -1132,12 +1132,12 @@ typedef struct anic_render_info {
                                anic_write_indices(), in the reference frame, ordered by material */
   const uint32_t* triangle_polygons; /**< polygon of each triangle */
   const uint32_t*
-      group_materials;         /**< of each group the label of its polygons' material, ascending:
+      group_materials;         /**< for each group the label of its polygons' material, ascending:
                                       0 for none, or one more than the number of a name */
   const uint32_t* group_begin; /**< group g has the triangles begin[g] .. begin[g + 1] - 1; the
                                   groups follow one another and hold all triangles */
   uint32_t mesh;
-  uint32_t vertex_count; /**< of render vertices */
+  uint32_t vertex_count; /**< number of render vertices */
   uint32_t triangle_count;
   uint32_t group_count; /**< one for each material that has a triangle */
 
@@ -1305,9 +1305,9 @@ typedef struct anic_basis {
   anic_reconstruction reconstruction;
   anic_target target;
   uint32_t mesh;
-  uint32_t attribute; /**< of ANIC_TARGET_ATTRIBUTE: its number. The x of anic_part is to be added
+  uint32_t attribute; /**< for ANIC_TARGET_ATTRIBUTE: its number. The x of anic_part is to be added
                          to anic_attribute.values */
-  uint32_t first_component; /**< of ANIC_TARGET_ATTRIBUTE: the basis moves this component and the
+  uint32_t first_component; /**< for ANIC_TARGET_ATTRIBUTE: the basis moves this component and the
                                two after it, if the attribute has them */
   uint32_t first_frame;
   uint32_t frame_count;
@@ -1317,16 +1317,16 @@ typedef struct anic_basis {
   uint32_t channels; /**< 3: basis(j, v) is a vector, with one weight; 1: it is a number, with
                         a weight for each of x, y, z */
   uint32_t weight_channels; /**< weights of a component: 1 for vectors, 3 for numbers */
-  float origin[3];          /**< of ANIC_BASIS_KEYFRAMES: added to every vertex before the motion */
-  const float* pose;        /**< NULL: none */
+  float origin[3];   /**< for ANIC_BASIS_KEYFRAMES: added to every vertex before the motion */
+  const float* pose; /**< NULL: none */
   const int32_t* wide;
   const int16_t* narrow;
   size_t pose_count; /**< elements of the arrays */
   size_t wide_count;
   size_t narrow_count;
-  const uint32_t* vertex_shape; /**< of ANIC_RECONSTRUCTION_MSGI: the point of the shape that each
+  const uint32_t* vertex_shape; /**< with ANIC_RECONSTRUCTION_MSGI: the point of the shape that each
                                    vertex is; NULL: vertex v is point v */
-  uint32_t regions; /**< of the surface, each with weights and a pose_map of its own; 1: none. At
+  uint32_t regions; /**< regions of the surface, each with its weights and pose_map; 1: none. At
                        most ANIC_MAX_REGIONS */
   const uint8_t* vertex_region; /**< region of each vertex, below `regions`; NULL: all are of
                                    region 0 */
@@ -1358,9 +1358,9 @@ typedef struct anic_correction {
 typedef struct anic_part {
   uint32_t segment;
   float share;          /**< the position is the sum of share * x over the parts */
-  const float* weights; /**< of region 0, then of the others */
+  const float* weights; /**< weights of region 0, then of the others */
   const float* shape;   /**< NULL with ANIC_RECONSTRUCTION_LINEAR */
-  float pose_map[12];   /**< of region 0 */
+  float pose_map[12];   /**< map of region 0 */
   float motion[12];
   const anic_correction* corrections;
   uint32_t correction_count;
@@ -1375,10 +1375,10 @@ typedef struct anic_parts {
   uint32_t count;
   anic_part parts[ANIC_MAX_PARTS];
   uint32_t
-      components[ANIC_MAX_PARTS]; /**< of each part: how many weights are to be used, all unless
+      components[ANIC_MAX_PARTS]; /**< for each part: how many weights are to be used, all unless
                                           anic_set_quality() said otherwise */
   const float*
-      pose_maps[ANIC_MAX_PARTS]; /**< of each part: pose_map of each region, 12 numbers each;
+      pose_maps[ANIC_MAX_PARTS]; /**< for each part: pose_map of each region, 12 numbers each;
                                              NULL: the basis has no pose */
 } anic_parts;
 
@@ -1422,7 +1422,7 @@ enum anic_texture ANIC_INT32 {
 typedef struct anic_texture_layout {
   size_t struct_size;
   uint32_t width; /**< texels of a row */
-  uint32_t rows;  /**< of a layer: 1 unless the mesh has more vertices than a row may have texels */
+  uint32_t rows;  /**< rows of a layer: 1 unless a row has fewer texels than the mesh vertices */
   uint32_t pose_height;   /**< rows of the texture; 0: there is none */
   uint32_t wide_height;   /**< as above */
   uint32_t narrow_height; /**< as above */
@@ -1510,7 +1510,7 @@ typedef struct anic_stream_info {
   uint64_t file_bytes;        /**< 0 while the header is not there */
   uint32_t segment_count;     /**< 0 while the head is not there */
   uint32_t playable_segments; /**< segments that can be opened, coarsely at least */
-  uint32_t layers;            /**< of all segments: chunks with components of their bases */
+  uint32_t layers;            /**< chunks with components of the bases of all segments */
   uint32_t arrived_layers;
   uint8_t playable; /**< anic_open_asset_from_stream() gives an asset that plays at least one
                        segment of positions, by its base while arrived_layers is 0 */
