@@ -6,9 +6,9 @@
 #include "codec/sequence/error.h"
 #include "codec/sequence/frame_normals.h"
 #include "tools/inputs/compared_clip.h"
-#include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_rate.h"
 #include "tools/io/base/signed_axes.h"
+#include "tools/io/file_formats.h"
 #include "tools/program/command.h"
 #include "tools/program/print.h"
 #include "tools/words/names.h"
@@ -327,16 +327,16 @@ void run(const CompareCommand& command, const CommonOptions& common) {
   std::optional<ComparedClip> clips[2];
   if (!command.rate.empty()) {
     for (int side : {0, 1}) {
-      if (is_scene(kind_of(*paths[side])))
+      if (is_scene(*paths[side]))
         parts[side].rate = parse_frame_rate(command.rate);
     }
   }
   // A scene has no frames of its own: it is read last, and takes the rate of the other side.
-  const int first = is_scene(kind_of(command.a)) ? 1 : 0;
+  const int first = is_scene(command.a) ? 1 : 0;
   for (int side : {first, 1 - first}) {
     clips[side].emplace(*paths[side], command.mesh, line.callback(), parts[side]);
     ComparedPart& other = parts[1 - side];
-    if (is_scene(kind_of(*paths[1 - side])) && !other.rate)
+    if (is_scene(*paths[1 - side]) && !other.rate)
       other.rate = clips[side]->sequence().rate;
   }
   const ComparedClip &a = *clips[0], &b = *clips[1];

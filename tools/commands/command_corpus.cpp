@@ -3,6 +3,7 @@
 #include "codec/remesh/subdivide.h"
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
+#include "tools/io/file_formats.h"
 #include "tools/io/write_sequence.h"
 #include "tools/program/command.h"
 #include "tools/program/print.h"
@@ -70,7 +71,7 @@ void add_corpus(Commands& commands, CommonOptions& common) {
       {"corpus", "NAME -o OUT [options]", "Make one of the clips of the corpus", kCorpusFooter},
       [c, &common] { run(*c, common); });
   options.argument("NAME", c->name, "Which clip");
-  options.option("-o,--output", c->output, "OUT", "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl");
+  options.option("-o,--output", c->output, "OUT", output_names());
   options.flag("--list", c->list, "List the clips");
   options.number("--vertices", c->vertices, "N", {1U, (1U << 31) - 1},
                  "About as many vertices (scalable clips)");

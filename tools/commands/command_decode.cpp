@@ -4,7 +4,8 @@
 #include "tools/inputs/clip_input.h"
 #include "tools/inputs/played_clip.h"
 #include "tools/inputs/turned_axes.h"
-#include "tools/io/base/file_kind.h"
+#include "tools/io/file_formats.h"
+#include "tools/io/gltf/gltf_format.h"
 #include "tools/io/load_sequence.h"
 #include "tools/io/write_sequence.h"
 #include "tools/program/command.h"
@@ -79,8 +80,7 @@ void take_frames(const FrameRange& range, MeshSequence& clip) {
 }
 
 bool is_written_by_frame(const std::string& path) {
-  const FileKind kind = kind_of(path);
-  return !is_cache(kind) && !is_whole_clip(kind);
+  return format_of(path)->frame_writer != nullptr;
 }
 
 /// Frames that are written together, and the meshes that they show.
@@ -165,7 +165,7 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
   if (quality == 1)
     clip.verify();
   // A GLB has an animation for each.
-  const bool together = kind_of(paths.output) == FileKind::kGlb && command.clip.empty();
+  const bool together = is_scene_output(paths.output) && command.clip.empty();
   clip.choose(together ? "all" : command.clip);
   bytes = {};
 
@@ -184,13 +184,15 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
   const AxisTurn turn(up, up_of_output(paths.output, up, command.up));
   std::vector<GltfImage> images;
   if (!command.textures.empty()) {
-    if (kind_of(paths.output) != FileKind::kGlb)
+    if (!is_scene_output(paths.output))
       throw Error(ErrorKind::kUsage, "--textures: images are put into .glb alone");
+    if (!carries_clip(command.textures))
+      throw Error(ErrorKind::kUsage, command.textures + ": is no glTF scene");
     images = load_images(command.textures);
-    options.images = images;
+    options.images = &images;
   }
   check_sequence_output(paths.output, range.size(), options);
-  if (kind_of(paths.output) == FileKind::kAlembic) {
+  if (format_of(paths.output)->write_tracks) {
     const Written written = write_archive(paths, clip, range, options);
     line.clear();
     return print_written(written, common);
@@ -207,7 +209,7 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
     MeshSequence description = clip.describe(meshes);
     if (own.size() < clip.frame_count())
       take_frames(own, description);
-    else if (kind_of(paths.output) == FileKind::kGlb && clip.clips().size() > 1)
+    else if (is_scene_output(paths.output) && clip.clips().size() > 1)
       description.clips = clip.timings();
     options.first_number = command.start + (own.first - range.first) / range.step;
     turn.turn(description.attributes);
@@ -223,7 +225,8 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
         [&all, frames = own](uint32_t f) { return all(frames.first + f * frames.step); }, options);
     written.push_back({paths.output, description.frame_count, description.vertex_count,
                        description.polygons.size(),
-                       keeps_origin(paths.output, command.ascii) ? Point() : description.origin});
+                       keeps_origin(paths.output, command.ascii) ? Point() : description.origin,
+                       list_formats([](const FileFormat& f) { return f.has_room_for_origin; })});
   }
   line.clear();
   for (const Written& run : written)
@@ -263,10 +266,7 @@ void add_decode(Commands& commands, CommonOptions& common) {
                                   "Decode .anic files to mesh sequences", kDecodeFooter},
                                  [c, &common] { run(*c, common); });
   options.arguments("FILE", c->inputs, "The .anic file to read; several with --format").required();
-  options
-      .option("-o,--output", c->output, "OUT",
-              "x.pc2, x.mdd, x.abc, x.glb, dir/frame_%04d.obj|ply|off|stl")
-      .required();
+  options.option("-o,--output", c->output, "OUT", output_names()).required();
   options.choice("--format", c->format, {kFormats},
                  "Write each clip in this format to the folder OUT, by its name");
   options.option(

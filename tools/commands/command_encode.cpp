@@ -10,8 +10,9 @@
 #include "tools/inputs/clip_input.h"
 #include "tools/inputs/encode_arguments.h"
 #include "tools/inputs/massage_transfer.h"
-#include "tools/io/base/file_kind.h"
+#include "tools/io/file_formats.h"
 #include "tools/io/files/atomic_file.h"
+#include "tools/io/gltf/gltf_format.h"
 #include "tools/io/load_sequence.h"
 #include "tools/program/command.h"
 #include "tools/program/print.h"
@@ -217,9 +218,7 @@ EncodeResult encode_meshes(const EncodeArguments& command, EncodeOptions options
 
 /// Throws Error(kUsage) where no glTF scene can carry the clip.
 void check_glb_output(const EncodeArguments& command) {
-  const FileKind kind =
-      command.inputs.size() == 1 ? kind_of(command.inputs[0]) : FileKind::kUnknown;
-  if (kind != FileKind::kGltf && kind != FileKind::kGlb)
+  if (command.inputs.size() != 1 || !carries_clip(command.inputs[0]))
     throw Error(ErrorKind::kUsage, command.output +
                                        ": a .glb carries the clip of one .gltf or .glb, which is "
                                        "the input; others become an .anic file");
@@ -307,7 +306,7 @@ void run(EncodeArguments command, const CommonOptions& common) {
       command.massage != MassageMode::kOff)
     throw Error(ErrorKind::kUsage, "--topology-changes goes without --massage");
   EncodeOptions options = encode_options(command);
-  const bool in_scene = kind_of(command.output) == FileKind::kGlb;
+  const bool in_scene = is_scene_output(command.output);
   if (in_scene)
     check_glb_output(command);
   else

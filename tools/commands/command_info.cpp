@@ -424,7 +424,7 @@ void row(const char* name, const std::string& value) {
 void print_meshes(const Contents& c) {
   const Limits& limits = c.clip.limits();
   for (uint32_t m = 0; m < limits.meshes.size(); ++m) {
-    const Mesh& mesh = c.clip.meshes()[m];
+    const anicodec::Mesh& mesh = c.clip.meshes()[m];
     if (limits.meshes.size() > 1) {
       std::string frames;
       for (const FrameRun& run : frames_of_mesh(c.clip, m))

@@ -4,6 +4,7 @@
 #include "codec/sequence/error.h"
 #include "codec/surface/closest_point.h"
 #include "tools/inputs/interpolation_input.h"
+#include "tools/io/file_formats.h"
 #include "tools/io/files/atomic_file.h"
 #include "tools/io/write_sequence.h"
 #include "tools/program/command.h"
@@ -184,7 +185,7 @@ void add_interpolate(Commands& commands, CommonOptions& common) {
                    "Make a clip between meshes of one connectivity", kInterpolateFooter},
                   [c, &common] { run(*c, common); });
   options.arguments("A B", c->inputs, "The meshes").required();
-  options.option("-o,--output", c->output, "OUT", "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl");
+  options.option("-o,--output", c->output, "OUT", output_names());
   options.number("--frame-count", c->frames, "N", {1U, (1U << 24) - 1}, "Frames to make");
   options.option("--range", c->range, "FROM:TO", "From where to where (default: A to the last)");
   options.option("--weights", c->weights, "FILE", "Weights of every frame");

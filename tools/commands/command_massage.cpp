@@ -4,6 +4,7 @@
 #include "codec/massage/massage_quality.h"
 #include "codec/metrics/hausdorff.h"
 #include "codec/sequence/error.h"
+#include "tools/io/file_formats.h"
 #include "tools/io/load_sequence.h"
 #include "tools/io/write_sequence.h"
 #include "tools/program/command.h"
@@ -161,8 +162,7 @@ void add_massage(Commands& commands, CommonOptions& common) {
                    "Bring vertices that slide over a surface to rest", kMassageFooter},
                   [c, &common] { run(*c, common); });
   options.arguments("INPUT", c->inputs, "As for encode").required();
-  options.option("-o,--output", c->output, "OUT", "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl")
-      .required();
+  options.option("-o,--output", c->output, "OUT", output_names()).required();
   options.option("--mesh", c->mesh, "FILE",
                  "Mesh of a lone vertex cache (default: same stem beside it)");
   options.number("--massage-strength", c->strength, "X", {},

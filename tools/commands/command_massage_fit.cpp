@@ -3,6 +3,7 @@
 #include "codec/sequence/error.h"
 #include "codec/transfer/remesh_fit.h"
 #include "tools/inputs/mesh_input.h"
+#include "tools/io/file_formats.h"
 #include "tools/io/write_sequence.h"
 #include "tools/program/command.h"
 #include "tools/program/print.h"
@@ -75,7 +76,7 @@ void add_massage_fit(Commands& commands, CommonOptions& common) {
                                  [c, &common] { run(*c, common); });
   options.argument("MESH", c->mesh, "The mesh to move").required();
   options.argument("SURFACE", c->surface, "The surface to lie on").required();
-  options.option("-o,--output", c->output, "OUT", "x.obj, x.ply, x.off, x.stl").required();
+  options.option("-o,--output", c->output, "OUT", mesh_names()).required();
 }
 
 }  // namespace anicodec::tools

@@ -4,6 +4,7 @@
 #include "codec/transfer/mesh_map.h"
 #include "tools/inputs/mesh_input.h"
 #include "tools/inputs/number_rows.h"
+#include "tools/io/file_formats.h"
 #include "tools/io/files/atomic_file.h"
 #include "tools/io/write_sequence.h"
 #include "tools/program/command.h"
@@ -165,7 +166,7 @@ void add_massage_map(Commands& commands, CommonOptions& common) {
       [c, &common] { run(*c, common); });
   options.argument("A", c->mesh, "The mesh whose faces are kept").required();
   options.argument("B", c->surface, "The mesh whose shape is taken").required();
-  options.option("-o,--output", c->output, "OUT", "x.obj, x.ply, x.off, x.stl").required();
+  options.option("-o,--output", c->output, "OUT", mesh_names()).required();
   options.option("--map", c->map, "FILE", "Write the map as text");
   options.choice("--details", c->details, {kMapDetails},
                  "Whose texture coordinates, colours and materials the result has (default a)");

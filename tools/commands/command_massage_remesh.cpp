@@ -3,6 +3,7 @@
 #include "codec/remesh/remesh.h"
 #include "codec/sequence/error.h"
 #include "tools/inputs/mesh_input.h"
+#include "tools/io/file_formats.h"
 #include "tools/io/load_sequence.h"
 #include "tools/io/write_sequence.h"
 #include "tools/program/command.h"
@@ -159,7 +160,7 @@ void add_massage_remesh(Commands& commands, CommonOptions& common) {
                    "Give a mesh fewer, more or even triangles", kMassageRemeshFooter},
                   [c, &common] { run(*c, common); });
   options.argument("MESH", c->mesh, "The mesh, whose surface is kept").required();
-  options.option("-o,--output", c->output, "OUT", "x.obj, x.ply, x.off, x.stl").required();
+  options.option("-o,--output", c->output, "OUT", mesh_names()).required();
   options.option("--vertices", c->vertices, "N", "How many vertices, or a share such as 25%");
   options.option("--max-distance", c->distance, "LEN",
                  "Decimate only as far as removed vertices stay so close to the new mesh, before "

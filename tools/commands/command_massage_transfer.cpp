@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/inputs/massage_transfer.h"
+#include "tools/io/file_formats.h"
 #include "tools/io/write_sequence.h"
 #include "tools/program/command.h"
 #include "tools/program/print.h"
@@ -115,8 +116,7 @@ void add_massage_transfer(Commands& commands, CommonOptions& common) {
       [c, &common] { run(*c, common); });
   options.arguments("MESH", c->inputs, "Meshes in the order of time, or a quoted pattern")
       .required();
-  options.option("-o,--output", c->output, "OUT", "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl")
-      .required();
+  options.option("-o,--output", c->output, "OUT", output_names()).required();
   options.option("--vertices", c->vertices, "N",
                  "Vertices to carry, or a share such as 25% (default: those of the first mesh)");
 }

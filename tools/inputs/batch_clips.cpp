@@ -3,10 +3,10 @@
 #include "tools/inputs/batch_clips.h"
 
 #include "codec/sequence/error.h"
-#include "tools/io/base/file_kind.h"
 #include "tools/io/base/mesh.h"
 #include "tools/io/base/package_hint.h"
 #include "tools/io/base/printable.h"
+#include "tools/io/file_formats.h"
 #include "tools/io/files/byte_source.h"
 #include "tools/io/files/natural_order.h"
 
@@ -34,15 +34,15 @@ std::string without_number(const std::string& stem) {
   return before;
 }
 
-using FramesOfClips = std::map<std::pair<std::string, FileKind>, std::vector<std::string>>;
+using FramesOfClips = std::map<std::pair<std::string, const FileFormat*>, std::vector<std::string>>;
 
 /// Joins names with decimals (sim.1.25) to those of their clip that have none (sim.1).
 void join_fractions(FramesOfClips& frames) {
   for (auto group = frames.begin(); group != frames.end();) {
-    const auto& [before, kind] = group->first;
+    const auto& [before, format] = group->first;
     const auto whole =
         before.ends_with('.')
-            ? frames.find({without_number(before.substr(0, before.size() - 1)), kind})
+            ? frames.find({without_number(before.substr(0, before.size() - 1)), format})
             : frames.end();
     if (whole == frames.end() || whole == group) {
       ++group;
@@ -74,14 +74,14 @@ void add_folder(const fs::path& folder, const fs::path& relative, std::vector<Ba
   std::set<std::string> cached;  // stems of caches, whose meshes are no clips
   FramesOfClips frames;
   for (const std::string& file : files) {
-    const FileKind kind = kind_of(file);
+    const FileFormat* format = format_of(file);
     const std::string stem = fs::path(file).stem().string();
-    if (is_cache(kind))
+    if (is_cache(file))
       cached.insert(stem);
-    if (is_cache(kind) || is_whole_clip(kind) || (is_stage(file) && !stages_are_left))
+    if (is_cache(file) || is_whole_clip(file) || (is_stage(file) && !stages_are_left))
       clips.push_back({joined(relative, stem), {(folder / file).string()}});
-    else if (kind != FileKind::kUnknown && without_number(stem) != stem)
-      frames[{without_number(stem), kind}].push_back(file);
+    else if (format && without_number(stem) != stem)
+      frames[{without_number(stem), format}].push_back(file);
   }
   join_fractions(frames);
   for (const auto& [group, names] : frames) {

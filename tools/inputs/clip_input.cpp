@@ -7,7 +7,9 @@
 #include "format/container.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/printable.h"
+#include "tools/io/file_formats.h"
 #include "tools/io/files/byte_source.h"
+#include "tools/io/gltf/moving_glb.h"
 #include "tools/io/load_sequence.h"
 
 #include <algorithm>
@@ -63,7 +65,7 @@ ErrorKind error_kind(Status status) {
 }
 
 void fail_clip(const std::string& path, const Failure& failure) {
-  if (failure.status == Status::kMagic && kind_of(path) != FileKind::kUnknown)
+  if (failure.status == Status::kMagic && format_of(path))
     throw Error(
         ErrorKind::kInput,
         path + ": is no .anic file; encode makes one of a scene, or of a mesh and its frames");

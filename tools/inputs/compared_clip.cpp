@@ -3,8 +3,8 @@
 #include "tools/inputs/compared_clip.h"
 
 #include "tools/inputs/clip_input.h"
-#include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_attributes.h"
+#include "tools/io/file_formats.h"
 #include "tools/io/load_sequence.h"
 
 #include <algorithm>
@@ -46,9 +46,9 @@ ComparedClip::ComparedClip(const std::string& path, const std::string& mesh,
     options.progress = progress;
     options.origin.reset();
     options.rate = part.rate;
-    if (is_cache(kind_of(path)))
+    if (is_cache(path))
       options.mesh = mesh;
-    if (is_scene(kind_of(path)))
+    if (is_scene(path))
       options.clip = part.clip;
     sequence_ = load_sequence(std::vector<std::string>{path}, options);
   }

@@ -6,8 +6,8 @@
 #include "codec/sequence/machine_memory.h"
 #include "format/metadata.h"
 #include "tools/inputs/clip_input.h"
-#include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_rate.h"
+#include "tools/io/file_formats.h"
 #include "tools/options/help_text.h"
 #include "tools/words/names.h"
 #include "tools/words/quantity.h"
@@ -219,7 +219,7 @@ OrderMode order_of(OrderChoice choice, const std::vector<std::string>& inputs) {
       break;
   }
   const bool scenes = !inputs.empty() && std::ranges::all_of(inputs, [](const std::string& path) {
-    return is_scene(kind_of(path));
+    return is_scene(path);
   });
   return scenes ? OrderMode::kFree : OrderMode::kVertices;
 }
@@ -309,7 +309,7 @@ namespace {
 
 /// Empty: the importer finds one.
 std::optional<Point> origin_of(const EncodeArguments& command) {
-  const bool moves = !command.live && kind_of(command.output) != FileKind::kGlb;
+  const bool moves = !command.live && !is_scene_output(command.output);
   if (command.origin.empty() || command.origin == "auto")
     return moves ? std::nullopt : std::optional(Point());
   if (command.origin == "none")
@@ -340,7 +340,7 @@ LoadOptions load_options(const EncodeArguments& command, const Progress& progres
   options.weld_stl = !command.no_weld;
   options.measures_rounding = command.lossless;
   options.origin = origin_of(command);
-  options.scene_stays = kind_of(command.output) == FileKind::kGlb;
+  options.scene_stays = is_scene_output(command.output);
   if (!command.memory.empty() && command.batch.empty())
     options.memory = parse_size(command.memory, "--memory");
   options.note = command.note;

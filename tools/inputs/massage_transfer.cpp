@@ -4,7 +4,7 @@
 
 #include "codec/remesh/remesh.h"
 #include "codec/sequence/error.h"
-#include "tools/io/base/file_kind.h"
+#include "tools/io/file_formats.h"
 #include "tools/io/load_sequence.h"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ TransferredInput transfer_inputs(std::span<const std::string> inputs, const Prog
   TransferredInput input;
   input.files = sequence_files(inputs);
   for (const std::string& file : input.files) {
-    if (is_cache(kind_of(file)))
+    if (is_cache(file))
       throw Error(ErrorKind::kUsage,
                   file + ": a vertex cache has one connectivity; there is nothing to transfer");
   }

@@ -3,15 +3,14 @@
 #include "tools/inputs/turned_axes.h"
 
 #include "codec/sequence/error.h"
-#include "tools/io/base/file_kind.h"
+#include "tools/io/file_formats.h"
 
 #include <utility>
 
 namespace anicodec::tools {
 
 UpAxis up_of_output(const std::string& path, UpAxis of_clip, UpAxis asked) {
-  const FileKind kind = kind_of(path);
-  if (is_whole_clip(kind)) {  // of scenes and archives, which are turned where they are written
+  if (is_whole_clip(path)) {  // of scenes and archives, which are turned where they are written
     if (asked == UpAxis::kZ)
       throw Error(ErrorKind::kUsage, path + ": has Y up, as all of its kind; --up z is for others");
     return of_clip;
@@ -21,7 +20,10 @@ UpAxis up_of_output(const std::string& path, UpAxis of_clip, UpAxis asked) {
                 path + ": --up turns a clip that says which axis is up, and this one does not");
   if (of_clip == UpAxis::kUnknown)
     return of_clip;
-  return asked != UpAxis::kUnknown ? asked : kind == FileKind::kObj ? UpAxis::kY : of_clip;
+  const FileFormat* format = format_of(path);
+  return asked != UpAxis::kUnknown            ? asked
+         : format && format->frames_have_y_up ? UpAxis::kY
+                                              : of_clip;
 }
 
 AxisTurn::AxisTurn(UpAxis from, UpAxis to)

@@ -5,9 +5,6 @@
 #include "codec/sequence/clip_library.h"
 #include "codec/sequence/error.h"
 #include "codec/sequence/position_box.h"
-#include "tools/io/alembic/alembic.h"
-#include "tools/io/assimp/assimp_scene.h"
-#include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_attributes.h"
 #include "tools/io/base/frame_changes.h"
 #include "tools/io/base/frame_rate.h"
@@ -15,19 +12,13 @@
 #include "tools/io/base/package_hint.h"
 #include "tools/io/base/printable.h"
 #include "tools/io/base/signed_axes.h"
-#include "tools/io/fbx/fbx.h"
+#include "tools/io/file_formats.h"
 #include "tools/io/files/byte_source.h"
 #include "tools/io/files/natural_order.h"
 #include "tools/io/files/staging.h"
 #include "tools/io/formats/cache_record.h"
-#include "tools/io/formats/md3.h"
 #include "tools/io/formats/mtl.h"
-#include "tools/io/formats/obj.h"
-#include "tools/io/formats/off.h"
-#include "tools/io/formats/ply.h"
-#include "tools/io/formats/stl.h"
 #include "tools/io/formats/vertex_cache.h"
-#include "tools/io/gltf/gltf.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,9 +35,6 @@ namespace anicodec::tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kReadableKinds =
-    ".obj, .ply, .off, .stl, .pc2, .mdd, .gltf, .glb, .fbx, .abc and scenes of assimp";
 
 [[noreturn]] void fail_usage(const std::string& text) {
   throw Error(ErrorKind::kUsage, text);
@@ -107,37 +95,42 @@ std::vector<std::string> expand(std::span<const std::string> inputs) {
     if (fs::is_directory(path, error))
       fail_input(path, "is a directory; name its frames with a pattern such as '" +
                            (fs::path(path) / "*.obj").string() + "'");
-    if (kind_of(path) == FileKind::kUnknown)
-      fail_input(path, "is of unknown kind; " + std::string(kReadableKinds) + " are read" +
+    if (!format_of(path))
+      fail_input(path, "is of unknown kind; " +
+                           list_formats([](const FileFormat&) { return true; }) + " are read" +
                            package_hint(path));
   }
   return paths;
 }
 
-/// Parses one mesh after the other with the same memory.
+/// Whether meshes of a format have vertices, which vertex caches move.
+bool has_vertices(const FileFormat& format) {
+  return format.mesh_parser && !format.is_soup;
+}
+
+[[noreturn]] void fail_without_vertices(const std::string& path) {
+  fail_input(path, "is not an " + list_formats(has_vertices, " or ") + " mesh");
+}
+
+/// Parses one mesh after the other, all of one format, with the same memory.
 class MeshReader {
  public:
-  explicit MeshReader(const LocalOrigin& origin) { mesh_.origin = origin; }
+  /// `path`: of any of them.
+  MeshReader(const std::string& path, const LoadOptions& options) {
+    const FileFormat* format = format_of(path);
+    if (!format || !format->mesh_parser)
+      fail_without_vertices(path);
+    parse_ = format->mesh_parser(options);
+    mesh_.origin = origin_of(options);
+  }
 
   const LocalOrigin& origin() const { return mesh_.origin; }
 
   /// `details`, where given, receives what stands beside the positions.
   const Mesh& read(const std::string& path, MeshDetails* details = nullptr) {
     read_file(path, bytes_);
-    switch (kind_of(path)) {
-      case FileKind::kObj:
-        libraries_.clear();
-        parse_obj(bytes_, path, mesh_, details, &libraries_);
-        break;
-      case FileKind::kPly:
-        parse_ply(bytes_, path, mesh_, details);
-        break;
-      case FileKind::kOff:
-        parse_off(bytes_, path, mesh_);
-        break;
-      default:
-        fail_input(path, "is not an .obj, .ply or .off mesh");
-    }
+    libraries_.clear();
+    parse_(bytes_, path, mesh_, details, &libraries_);
     return mesh_;
   }
 
@@ -174,6 +167,7 @@ class MeshReader {
   }
 
  private:
+  MeshParser parse_;
   std::string bytes_;
   Mesh mesh_;
   std::vector<std::string> libraries_;
@@ -253,21 +247,9 @@ void note_rounding(const std::string& path, const LocalOrigin& origin, const Loa
         fmt::format("{}: float32 takes up to {:.2g} from the coordinates", path, origin.rounding));
 }
 
-/// The point that readers of meshes take from coordinates.
-LocalOrigin origin_of(const LoadOptions& options) {
-  return {.at = options.origin.value_or(Point()), .measures = options.measures_rounding};
-}
-
-/// Moves positions that a file has as floats.
-void take_origin(const LoadOptions& options, std::span<float> positions) {
-  LocalOrigin origin = origin_of(options);
-  for (size_t i = 0; i < positions.size(); ++i)
-    positions[i] = origin.rounded(static_cast<double>(positions[i]), i % 3);
-}
-
 void load_frames(const std::vector<std::string>& paths, const LoadOptions& options,
                  MeshSequence& sequence) {
-  MeshReader reader(origin_of(options));
+  MeshReader reader(paths[0], options);
   MeshDetails details;
   ChangesOfFrames changes(options);
   for (size_t f = 0; f < paths.size(); ++f) {
@@ -291,47 +273,23 @@ void load_frames(const std::vector<std::string>& paths, const LoadOptions& optio
   note_rounding(paths[0], reader.origin(), options);
 }
 
-void load_stl_frames(const std::vector<std::string>& paths, const LoadOptions& options,
-                     MeshSequence& sequence) {
-  std::string bytes;
-  std::vector<float> soup;
-  std::optional<StlWeld> weld;
-  LocalOrigin origin = origin_of(options);
-  LeftKinds left_out;
-  for (size_t f = 0; f < paths.size(); ++f) {
-    read_file(paths[f], bytes);
-    parse_stl(bytes, paths[f], soup, origin, left_out);
-    if (f == 0) {
-      weld.emplace(soup, paths[0], options.weld_stl);
-      sequence.vertex_count = weld->vertex_count();
-      sequence.polygons = weld->polygons();
-      reserve(sequence, paths.size(), paths[0]);
-    }
-    weld->append_vertices(soup, paths[f], sequence.positions);
-    report(options.progress, f + 1, paths.size());
-  }
-  if (options.note && !left_out.text().empty())
-    options.note(paths[0] + ": left out: " + left_out.text());
-  note_rounding(paths[0], origin, options);
-}
-
 /// The mesh of a lone cache.
 std::string mesh_beside(const std::string& cache) {
-  for (const char* extension : {".obj", ".ply", ".off"}) {
-    std::string path = fs::path(cache).replace_extension(extension).string();
-    if (exists(path))
+  for (const FileFormat* format : file_formats()) {
+    std::string path = fs::path(cache).replace_extension(format->extensions).string();
+    if (has_vertices(*format) && exists(path))
       return path;
   }
-  throw Error(
-      ErrorKind::kInput,
-      cache + ": a vertex cache has no faces; name the mesh that it moves (.obj, .ply, .off)");
+  throw Error(ErrorKind::kInput,
+              cache + ": a vertex cache has no faces; name the mesh that it moves (" +
+                  list_formats(has_vertices, ", ") + ")");
 }
 
 /// Tells of a vertex cache beside a mesh that is taken by itself.
 void note_cache_beside(const std::string& mesh, const LoadOptions& options) {
-  for (const char* extension : {".pc2", ".mdd"}) {
-    const std::string cache = fs::path(mesh).replace_extension(extension).string();
-    if (options.note && exists(cache))
+  for (const FileFormat* format : file_formats()) {
+    const std::string cache = fs::path(mesh).replace_extension(format->extensions).string();
+    if (options.note && format->role == FileRole::kCache && exists(cache))
       options.note("one frame, without " + cache + " beside it, which moves it if named, too");
   }
 }
@@ -398,14 +356,17 @@ void set_pc2_timing(const VertexCache& cache, const std::string& path, const Loa
 
 void load_cache(const std::string& cache_path, const std::string& mesh_path,
                 const LoadOptions& options, MeshSequence& sequence) {
-  if (kind_of(mesh_path) == FileKind::kStl)
-    fail_input(mesh_path,
-               "an STL has no order of vertices and cannot be the mesh of a vertex cache");
+  if (const FileFormat* mesh = format_of(mesh_path); mesh && mesh->is_soup)
+    fail_input(
+        mesh_path,
+        fmt::format("an {} has no order of vertices and cannot be the mesh of a vertex cache",
+                    mesh->name));
+  const FileFormat& format = *format_of(cache_path);
   ByteSource source = file_source(cache_path);
-  VertexCache cache = kind_of(cache_path) == FileKind::kPc2 ? open_pc2(source) : open_mdd(source);
+  VertexCache cache = format.open_cache(source);
   FrameArray surface;
   {
-    MeshReader reader(origin_of(options));
+    MeshReader reader(mesh_path, options);
     const Mesh& mesh = reader.read(mesh_path, &sequence);
     if (mesh.vertex_count() != cache.vertex_count)
       fail_input(cache_path, std::to_string(cache.vertex_count) + " vertices, but the mesh " +
@@ -420,10 +381,10 @@ void load_cache(const std::string& cache_path, const std::string& mesh_path,
   reserve(sequence, cache.frame_count, cache_path);
   sequence.positions.resize(size_t{cache.vertex_count} * 3 * cache.frame_count);
   read_positions(cache, source, sequence.positions, options.progress);
-  take_origin(options, sequence.positions);
+  move_origin(options, sequence.positions);
   if (cache.frame_count > 0)
     compare_axes(cache_path, surface, options, sequence);
-  if (kind_of(cache_path) == FileKind::kPc2) {
+  if (format.counts_frames) {
     set_pc2_timing(cache, cache_path, options, sequence);
   } else if (!options.rate) {
     Timing timing = timing_of(cache.times, cache_path);
@@ -433,115 +394,28 @@ void load_cache(const std::string& cache_path, const std::string& mesh_path,
   }
 }
 
-GltfOptions scene_options(const LoadOptions& options) {
-  GltfOptions scene{.rate = options.rate, .mesh = options.mesh, .clip = options.clip};
-  scene.memory_limit = options.memory;
-  scene.allow_outside = options.allow_outside;
-  scene.scene_stays = options.scene_stays;
-  scene.origin = options.origin.value_or(Point());
-  scene.progress = options.progress;
-  scene.note = options.note;
-  return scene;
-}
-
-/// Reads files by their names relative to a scene.
-GltfResolver resolver_of(const std::string& scene) {
-  return [folder = fs::path(scene).parent_path()](const std::string& name) {
-    std::string file;
-    read_file((folder / name).string(), file);
-    return file;
-  };
-}
-
-/// Several animations of a scene as clips of one sequence; of one take, if nobody asked for clips, that.
-template <typename LoadOne, typename LoadClips>
-MeshSequence load_animations(const LoadOptions& options, const LoadOne& load_one,
-                             const LoadClips& load_clips) {
-  if (options.clips.empty() && !(options.takes && options.clip.empty()))
-    return load_one();
-  std::vector<MeshSequence> clips = load_clips();
-  return clips.size() == 1 && options.clips.empty() ? std::move(clips[0])
-                                                    : clip_library(std::move(clips));
-}
-
-void load_scene(const std::string& path, const LoadOptions& options, MeshSequence& sequence) {
-  const GltfOptions scene = scene_options(options);
+/// A scene or an archive.
+void load_whole_clip(const FileFormat& format, const std::string& path, const LoadOptions& options,
+                     MeshSequence& sequence) {
   const std::string stem = sequence.name;
-  const FileKind kind = kind_of(path);
-  std::string bytes;
-  if (kind == FileKind::kGltf || kind == FileKind::kGlb)
-    read_file(path, bytes);
-  if (options.note && clip_of_glb(bytes, path))
-    options.note(path + " moves by a clip inside, which decode writes; as a scene it stands still");
-  sequence = load_animations(
-      options,
-      [&] {
-        return kind == FileKind::kFbx      ? load_fbx(path, scene)
-               : kind == FileKind::kAssimp ? load_assimp(path, scene)
-                                           : parse_gltf(bytes, path, resolver_of(path), scene);
-      },
-      [&] {
-        return kind == FileKind::kFbx ? load_fbx_clips(path, scene, options.clips)
-               : kind == FileKind::kAssimp
-                   ? load_assimp_clips(path, scene, options.clips)
-                   : parse_gltf_clips(bytes, path, resolver_of(path), scene, options.clips);
-      });
-  if (sequence.clips.empty())
+  sequence = format.read_clip({path}, options);
+  if (format.role != FileRole::kScene)
+    sequence.name = stem;
+  else if (sequence.clips.empty())
     sequence.name = sequence.name.empty() ? stem : stem + " " + sequence.name;
 }
 
-AlembicOptions alembic_options(const LoadOptions& options) {
-  AlembicOptions archive{.rate = options.rate, .mesh = options.mesh};
-  archive.memory_limit = options.memory;
-  archive.origin = options.origin.value_or(Point());
-  archive.progress = options.progress;
-  archive.note = options.note;
-  return archive;
-}
-
-void load_archive(const std::string& path, const LoadOptions& options, MeshSequence& sequence) {
-  const std::string stem = sequence.name;
-  sequence = read_alembic(file_source(path), alembic_options(options));
-  sequence.name = stem;
-}
-
-void load_md3(const std::string& path, const LoadOptions& options, MeshSequence& sequence) {
-  if (!options.mesh.empty())
-    fail_usage("--mesh " + options.mesh + ": of an MD3 all surfaces are read");
-  const std::string stem = sequence.name;
-  std::string bytes;
-  read_file(path, bytes);
-  sequence = parse_md3(bytes, path, options.note);
-  take_origin(options, sequence.positions);
-  sequence.name = stem;
-}
-
-/// A scene or one mesh from the standard input, told apart by how it begins.
+/// A scene, an archive or one mesh from the standard input, told apart by how it begins.
 void load_standard_input(const std::string& bytes, const LoadOptions& options,
                          MeshSequence& sequence) {
-  const size_t begin = bytes.find_first_not_of(" \t\r\n");
-  if (bytes.starts_with("glTF") || (begin != std::string::npos && bytes[begin] == '{')) {
-    const GltfOptions scene = scene_options(options);
-    const GltfResolver resolve = [](const std::string& name) -> std::string {
-      fail_input(name, "a scene from the standard input has no other files");
-    };
-    sequence = load_animations(
-        options, [&] { return parse_gltf(bytes, "-", resolve, scene); },
-        [&] { return parse_gltf_clips(bytes, "-", resolve, scene, options.clips); });
-    return;
-  }
-  if (bytes.starts_with("Ogawa")) {
-    sequence = read_alembic(memory_source(bytes, "-"), alembic_options(options));
+  const FileFormat& format = format_of_bytes(bytes);
+  if (format.read_clip) {
+    sequence = format.read_clip({"-", &bytes}, options);
     return;
   }
   Mesh mesh;
   mesh.origin = origin_of(options);
-  if (bytes.starts_with("ply"))
-    parse_ply(bytes, "-", mesh, &sequence);
-  else if (std::string_view(bytes).substr(0, 16).find("OFF") != std::string_view::npos)
-    parse_off(bytes, "-", mesh);
-  else
-    parse_obj(bytes, "-", mesh, &sequence);
+  format.mesh_parser(options)(bytes, "-", mesh, &sequence, nullptr);
   sequence.vertex_count = static_cast<uint32_t>(mesh.vertex_count());
   sequence.frame_count = 1;
   sequence.polygons = std::move(mesh.polygons);
@@ -565,23 +439,22 @@ void note_order(const std::vector<std::string>& paths, const LoadOptions& option
 void load(const std::vector<std::string>& paths, const LoadOptions& options,
           MeshSequence& sequence) {
   for (const std::string& path : paths) {
-    if (is_whole_clip(kind_of(path)) && paths.size() > 1)
+    if (is_whole_clip(path) && paths.size() > 1)
       fail_usage(path + ": is a whole clip, but " + std::to_string(paths.size()) +
                  " inputs are given");
   }
-  if (is_scene(kind_of(paths[0])))
-    return load_scene(paths[0], options, sequence);
+  const FileFormat& first = *format_of(paths[0]);
+  if (first.role == FileRole::kScene)
+    return load_whole_clip(first, paths[0], options, sequence);
   if (!options.clip.empty())
     fail_usage("--clip " + options.clip + ": " + paths[0] + " is no scene with clips");
   if (!options.clips.empty())
     fail_usage("--clips: " + paths[0] + " is no scene with clips");
-  if (kind_of(paths[0]) == FileKind::kAlembic)
-    return load_archive(paths[0], options, sequence);
-  if (kind_of(paths[0]) == FileKind::kMd3)
-    return load_md3(paths[0], options, sequence);
+  if (first.role == FileRole::kArchive)
+    return load_whole_clip(first, paths[0], options, sequence);
   std::vector<std::string> caches, meshes;
   for (const std::string& path : paths)
-    (is_cache(kind_of(path)) ? caches : meshes).push_back(path);
+    (is_cache(path) ? caches : meshes).push_back(path);
   if (!caches.empty()) {
     if (meshes.size() + (options.mesh.empty() ? 0 : 1) > 1)
       fail_usage(caches[0] + ": a vertex cache goes with one mesh, but " +
@@ -605,16 +478,12 @@ void load(const std::vector<std::string>& paths, const LoadOptions& options,
     note_cache_beside(meshes[0], options);
   if (meshes.size() > kMaxFrames)
     fail_usage(std::to_string(meshes.size()) + " frames; at most 2^24 - 1 are possible");
-  FileKind kind = kind_of(meshes[0]);
   for (const std::string& path : meshes) {
-    if (kind_of(path) != kind)
+    if (format_of(path) != &first)
       fail_usage(path + ": frames are of one format, but " + meshes[0] + " is of another");
   }
   note_order(meshes, options);
-  if (kind == FileKind::kStl)
-    load_stl_frames(meshes, options, sequence);
-  else
-    load_frames(meshes, options, sequence);
+  load_frames(meshes, options, sequence);
 }
 
 /// Tells of coordinates so far from zero that float32 is coarse for the mesh around them.
@@ -667,7 +536,7 @@ MeshSequence load_from(std::span<const std::string> inputs, const std::string& s
     sequence.name = fs::path(paths[0]).stem().string();
     load(paths, options, sequence);
     has_rate = std::ranges::any_of(
-        paths, [](const std::string& path) { return kind_of(path) == FileKind::kPc2; });
+        paths, [](const std::string& path) { return format_of(path)->counts_frames; });
   }
   if (options.rate && !has_rate) {
     sequence.rate = *options.rate;
@@ -681,18 +550,20 @@ MeshSequence load_from(std::span<const std::string> inputs, const std::string& s
 
 Scene load_topologies_from(std::span<const std::string> inputs, const LoadOptions& options) {
   const std::vector<std::string> paths = expand(inputs);
-  const FileKind kind = kind_of(paths[0]);
+  const FileFormat& format = *format_of(paths[0]);
   if (paths.size() > kMaxFrames)
     fail_usage(std::to_string(paths.size()) + " frames; at most 2^24 - 1 are possible");
-  if (kind == FileKind::kAlembic) {
+  if (format.read_meshes) {
     if (paths.size() > 1)
       fail_usage(paths[1] + ": is a second input, but " + paths[0] + " is a whole clip");
-    Scene scene = read_alembic_meshes(file_source(paths[0]), alembic_options(options));
+    Scene scene = format.read_meshes({paths[0]}, options);
     scene.clip.name = fs::path(paths[0]).stem().string();
     scene.clip.origin = *options.origin;
     return scene;
   }
-  MeshReader reader(origin_of(options));
+  if (!has_vertices(format))
+    fail_without_vertices(paths[0]);
+  MeshReader reader(paths[0], options);
   ChangesOfFrames changes(options);
   Scene scene;
   scene.clip.origin = *options.origin;
@@ -704,7 +575,7 @@ Scene load_topologies_from(std::span<const std::string> inputs, const LoadOption
   scene.clip.frame_count = static_cast<uint32_t>(paths.size());
   std::vector<SceneMesh>& runs = scene.meshes;
   for (uint32_t f = 0; f < paths.size(); ++f) {
-    if (kind_of(paths[f]) != kind)
+    if (format_of(paths[f]) != &format)
       fail_usage(paths[f] + ": frames are of one format, but " + paths[0] + " is of another");
     MeshDetails details;
     const Mesh* mesh = &reader.read(paths[f], &details);
@@ -736,7 +607,7 @@ Scene load_topologies_from(std::span<const std::string> inputs, const LoadOption
 }  // namespace
 
 bool is_sequence_input(const std::string& path) {
-  return kind_of(path) != FileKind::kUnknown;
+  return format_of(path) != nullptr;
 }
 
 std::vector<std::string> sequence_files(std::span<const std::string> inputs) {
@@ -767,24 +638,6 @@ Scene load_topologies(std::span<const std::string> inputs, const LoadOptions& op
       box->add(mesh.sequence.positions);
     return scene;
   });
-}
-
-std::string carry_clip(const std::string& scene, const LoadOptions& options,
-                       const StillSurface& still, std::string_view clip) {
-  std::string bytes;
-  read_file(scene, bytes);
-  return write_moving_glb(bytes, scene, resolver_of(scene), scene_options(options), still, clip);
-}
-
-std::vector<GltfImage> load_images(const std::string& path) {
-  if (const FileKind kind = kind_of(path); kind != FileKind::kGltf && kind != FileKind::kGlb)
-    fail_usage(path + ": is no glTF scene");
-  std::string bytes;
-  read_file(path, bytes);
-  std::vector<GltfImage> images =
-      parse_gltf_document(bytes, path, resolver_of(path), half_of_machine()).images;
-  std::erase_if(images, [](const GltfImage& image) { return image.name.empty(); });
-  return images;
 }
 
 }  // namespace anicodec::tools

@@ -5,28 +5,14 @@
 
 #include "codec/sequence/frame_source.h"
 #include "codec/sequence/mesh_sequence.h"
-#include "codec/sequence/progress.h"
 #include "tools/io/alembic/alembic_output.h"
-#include "tools/io/gltf/gltf_material.h"
+#include "tools/io/base/write_options.h"
 
 #include <cstdint>
 #include <span>
 #include <string>
 
 namespace anicodec::tools {
-
-struct WriteOptions {
-  bool overwrite = false;     ///< replace existing outputs instead of refusing
-  bool ascii = false;         ///< PLY and STL as text
-  bool step = false;          ///< GLB: frames stand until the next instead of moving to it
-  bool normals = false;       ///< Alembic: those of every corner in every frame
-  bool group_faces = false;   ///< OBJ: faces object by object, and in each material by material
-  uint32_t first_number = 0;  ///< of frame files
-  std::span<const GltfImage> images = {};  ///< GLB: those that materials name by "#name"
-  Progress progress = {};                  ///< stage "writing"
-  /// Attributes in the form of those of the clip; empty: those of the clip.
-  AttributeSource attributes = {};
-};
 
 /// Writes a clip, one frame in memory at a time:
 ///   - clip.pc2, clip.mdd: a vertex cache, with the mesh of frame 0 beside it as clip.obj, which

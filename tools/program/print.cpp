@@ -27,8 +27,8 @@ void print_written(const Written& written, const CommonOptions& common) {
     print_line("{}: {} of {} and {}", written.path, counted(written.frames, "frame"),
                counted(written.vertices, "vertex", "vertices"), counted(written.faces, "face"));
     if (has_origin)
-      print_line("its positions count from {}; .obj, .ply, .off, .glb and .abc have room for that",
-                 fmt::join(written.origin, ","));
+      print_line("its positions count from {}; {} have room for that",
+                 fmt::join(written.origin, ","), written.rooms);
   }
 }
 

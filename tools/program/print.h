@@ -42,6 +42,7 @@ struct Written {
   uint32_t frames = 0, vertices = 0;
   size_t faces = 0;
   std::array<double, 3> origin{};  ///< that positions count from, where the file has no room for it
+  std::string rooms = {};          ///< files that have
 };
 
 /// Says so: as an object, or as a line unless quiet.

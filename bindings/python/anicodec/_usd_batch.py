@@ -19,7 +19,8 @@ from ._batch import Job, is_done, key_of, note
 
 SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 #: Files of other kinds that are clips, alone or as one of several frames.
-_OTHERS = (".pc2", ".mdd", ".abc", ".gltf", ".glb", ".fbx", ".md3", ".md2", ".dae", ".3ds", ".obj", ".ply", ".off", ".stl")
+_OTHERS = (".obj", ".ply", ".off", ".stl", ".pc2", ".mdd", ".gltf", ".glb", ".fbx", ".md3", ".abc", ".dae", ".md2", ".3ds", ".b3d", ".ms3d", ".smd",
+           ".x", ".lwo")
 
 
 def _arguments(arguments: List[str]) -> Tuple[argparse.Namespace, List[str]]:

@@ -5,9 +5,11 @@
 #include "codec/sequence/error.h"
 #include "tools/io/assimp/assimp_plugin.h"
 #include "tools/io/base/byte_order.h"
+#include "tools/io/base/file_format.h"
 #include "tools/io/base/mesh.h"
 #include "tools/io/base/printable.h"
 #include "tools/io/files/byte_source.h"
+#include "tools/io/gltf/gltf_format.h"
 #include "tools/io/guard/guarded_call.h"
 
 #include <algorithm>
@@ -177,5 +179,16 @@ std::vector<MeshSequence> load_assimp_clips(const std::string& path, const GltfO
   all.flat_without_normals = false;
   return parse_gltf_clips(file.scenes[0], path, {}, all, names);
 }
+
+const FileFormat kAssimp = {
+    .name = "assimp",
+    .extensions = ".dae .md2 .3ds .b3d .ms3d .smd .x .lwo",
+    .role = FileRole::kScene,
+    .read_clip = [](const InputFile& file, const LoadOptions& options) {
+      const GltfOptions scene = gltf_options(options);
+      return load_animations(
+          options, [&] { return load_assimp(file.name, scene); },
+          [&] { return load_assimp_clips(file.name, scene, options.clips); });
+    }};
 
 }  // namespace anicodec::tools

@@ -11,6 +11,8 @@
 
 namespace anicodec::tools {
 
+struct FileFormat;
+
 /// Bakes a scene of any format that assimp reads (Collada, 3DS ...), in the way of
 /// parse_gltf(), triangulated; frames of MD2 are taken as they are. Up axis and unit are unknown. Throws Error(kInput), Error(kUnsupported) in a build
 /// without assimp.
@@ -20,6 +22,8 @@ MeshSequence load_assimp(const std::string& path, const GltfOptions& options);
 /// names; throws Error(kUsage) for names of them.
 std::vector<MeshSequence> load_assimp_clips(const std::string& path, const GltfOptions& options,
                                             const std::vector<std::string>& names);
+
+extern const FileFormat kAssimp;
 
 }  // namespace anicodec::tools
 

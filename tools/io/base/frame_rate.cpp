@@ -191,4 +191,13 @@ FrameRate covering_rate(double seconds, double least) {
   return rate;
 }
 
+std::vector<float> times_of(const MeshSequence& clip) {
+  std::vector<float> times;
+  for (uint32_t f = 0; f < clip.frame_count; ++f) {
+    double t = clip.times.empty() ? f / clip.rate.value() : clip.times[f];
+    times.push_back(static_cast<float>(clip.start_time + t));
+  }
+  return times;
+}
+
 }  // namespace anicodec::tools

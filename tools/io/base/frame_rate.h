@@ -40,6 +40,9 @@ std::optional<FrameRate> grid_rate(std::span<const double> times, double roundin
 /// The least rate from `least` on at which `seconds` are whole frames.
 FrameRate covering_rate(double seconds, double least);
 
+/// Seconds of each frame of a clip.
+std::vector<float> times_of(const MeshSequence& clip);
+
 }  // namespace anicodec::tools
 
 #endif  // ANICODEC_TOOLS_IO_BASE_FRAME_RATE_H_

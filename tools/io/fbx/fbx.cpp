@@ -3,8 +3,10 @@
 #include "tools/io/fbx/fbx.h"
 
 #include "codec/sequence/error.h"
+#include "tools/io/base/file_format.h"
 #include "tools/io/base/mesh.h"
 #include "tools/io/base/printable.h"
+#include "tools/io/gltf/gltf_format.h"
 
 #ifdef ANICODEC_UFBX
 #include "tools/io/fbx/fbx_message.h"
@@ -279,5 +281,15 @@ std::vector<MeshSequence> load_fbx_clips(const std::string& path, const GltfOpti
 }
 
 #endif
+
+const FileFormat kFbx = {.name = "FBX",
+                         .extensions = ".fbx",
+                         .role = FileRole::kScene,
+                         .read_clip = [](const InputFile& file, const LoadOptions& options) {
+                           const GltfOptions scene = gltf_options(options);
+                           return load_animations(
+                               options, [&] { return load_fbx(file.name, scene); },
+                               [&] { return load_fbx_clips(file.name, scene, options.clips); });
+                         }};
 
 }  // namespace anicodec::tools

@@ -11,6 +11,8 @@
 
 namespace anicodec::tools {
 
+struct FileFormat;
+
 /// Whether this build has ufbx, which reads FBX.
 bool reads_fbx();
 
@@ -26,6 +28,8 @@ MeshSequence load_fbx(const std::string& path, const GltfOptions& options);
 /// Takes as clips, see parse_gltf_clips().
 std::vector<MeshSequence> load_fbx_clips(const std::string& path, const GltfOptions& options,
                                          const std::vector<std::string>& names);
+
+extern const FileFormat kFbx;
 
 }  // namespace anicodec::tools
 

@@ -3,8 +3,10 @@
 #include "tools/io/formats/md3.h"
 
 #include "tools/io/base/byte_order.h"
+#include "tools/io/base/file_format.h"
 #include "tools/io/base/mesh.h"
 #include "tools/io/base/printable.h"
+#include "tools/io/files/byte_source.h"
 
 #include <bit>
 #include <cmath>
@@ -187,5 +189,19 @@ MeshSequence parse_md3(std::string_view bytes, const std::string& name,
   out.up = UpAxis::kZ;
   return out;
 }
+
+const FileFormat kMd3 = {.name = "MD3",
+                         .extensions = ".md3",
+                         .role = FileRole::kArchive,
+                         .read_clip = [](const InputFile& file, const LoadOptions& options) {
+                           if (!options.mesh.empty())
+                             fail_usage("--mesh " + options.mesh,
+                                        "of an MD3 all surfaces are read");
+                           std::string bytes;
+                           read_file(file.name, bytes);
+                           MeshSequence sequence = parse_md3(bytes, file.name, options.note);
+                           move_origin(options, sequence.positions);
+                           return sequence;
+                         }};
 
 }  // namespace anicodec::tools

@@ -2,11 +2,14 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/io/formats/obj.h"
 
+#include "tools/io/base/file_format.h"
 #include "tools/io/base/text_cursor.h"
 #include "tools/io/base/text_output.h"
+#include "tools/io/files/atomic_file.h"
 #include "tools/io/formats/mtl.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <map>
 #include <numeric>
@@ -413,5 +416,36 @@ void append_obj(const Polygons& polygons, std::span<const float> positions, std:
     out += '\n';
   }
 }
+
+void add_library(const std::string& mesh, const OutputClip& output, ObjDetails& details,
+                 std::vector<AtomicFile>& files) {
+  if (!has_looks(output.clip.materials))
+    return;
+  const std::filesystem::path library = std::filesystem::path(mesh).replace_extension(".mtl");
+  details.set_library(library.filename().string());
+  std::string text;
+  append_mtl(output.clip.materials, text);
+  files.emplace_back(library.string(), output.options.overwrite).write(text);
+  files.back().close();
+}
+
+const FileFormat kObj = {.name = "OBJ",
+                         .extensions = ".obj",
+                         .mesh_parser = [](const LoadOptions&) -> MeshParser { return parse_obj; },
+                         .frame_writer = [](const OutputClip& output, const std::string& first_path,
+                                            const std::vector<Attribute>& attributes,
+                                            std::vector<AtomicFile>& files) -> FrameWriter {
+                           ObjDetails prepared(output.clip, output.options.group_faces);
+                           add_library(first_path, output, prepared, files);
+                           return [&clip = output.clip, details = std::move(prepared), &attributes,
+                                   moves = bool(output.options.attributes)](
+                                      std::span<const float> positions, std::string& out) mutable {
+                             if (moves)
+                               details.set_attributes(attributes);
+                             append_obj(clip.polygons, positions, out, &details, clip.origin);
+                           };
+                         },
+                         .frames_have_y_up = true,
+                         .has_room_for_origin = true};
 
 }  // namespace anicodec::tools

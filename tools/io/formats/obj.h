@@ -15,6 +15,10 @@
 
 namespace anicodec::tools {
 
+class AtomicFile;
+struct FileFormat;
+struct OutputClip;
+
 /// Reads Wavefront OBJ: vertices and polygons, in the file's order and number. Faces may be v, v/t,
 /// v//n or v/t/n with positive or negative indices and may precede their vertices. `details`, where
 /// given, receives texture coordinates and normals of corners, colours of vertices, and the
@@ -67,6 +71,12 @@ class ObjDetails {
 /// are those of the frame.
 void append_obj(const Polygons& polygons, std::span<const float> positions, std::string& out,
                 const ObjDetails* details = nullptr, const Point& origin = {});
+
+/// Writes the library of materials whose looks are known beside an OBJ, which then names it.
+void add_library(const std::string& mesh, const OutputClip& output, ObjDetails& details,
+                 std::vector<AtomicFile>& files);
+
+extern const FileFormat kObj;
 
 }  // namespace anicodec::tools
 

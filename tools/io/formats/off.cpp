@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/io/formats/off.h"
 
+#include "tools/io/base/file_format.h"
 #include "tools/io/base/text_cursor.h"
 #include "tools/io/base/text_output.h"
 
@@ -145,5 +146,21 @@ void append_off(const Polygons& polygons, std::span<const float> positions, std:
     out += '\n';
   }
 }
+
+const FileFormat kOff = {
+    .name = "OFF",
+    .extensions = ".off",
+    .find_mark = [](std::string_view bytes) { return bytes.substr(0, 16).find("OFF"); },
+    .mesh_parser = [](const LoadOptions&) -> MeshParser {
+      return [](std::string_view bytes, const std::string& name, Mesh& mesh, MeshDetails*,
+                std::vector<std::string>*) { parse_off(bytes, name, mesh); };
+    },
+    .frame_writer = [](const OutputClip& output, const std::string&, const std::vector<Attribute>&,
+                       std::vector<AtomicFile>&) -> FrameWriter {
+      return [&clip = output.clip](std::span<const float> positions, std::string& out) {
+        append_off(clip.polygons, positions, out, clip.origin);
+      };
+    },
+    .has_room_for_origin = true};
 
 }  // namespace anicodec::tools

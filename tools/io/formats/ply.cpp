@@ -3,6 +3,7 @@
 #include "tools/io/formats/ply.h"
 
 #include "tools/io/base/byte_order.h"
+#include "tools/io/base/file_format.h"
 #include "tools/io/base/printable.h"
 #include "tools/io/base/text_cursor.h"
 #include "tools/io/base/text_output.h"
@@ -365,5 +366,24 @@ void append_ply(const Polygons& polygons, std::span<const float> positions, bool
       append(v, std::endian::little, out);
   }
 }
+
+const FileFormat kPly = {
+    .name = "PLY",
+    .extensions = ".ply",
+    .find_mark = [](std::string_view bytes) { return bytes.starts_with("ply") ? 0 : bytes.npos; },
+    .mesh_parser = [](const LoadOptions&) -> MeshParser {
+      return [](std::string_view bytes, const std::string& name, Mesh& mesh, MeshDetails* details,
+                std::vector<std::string>*) { parse_ply(bytes, name, mesh, details); };
+    },
+    .frame_writer = [](const OutputClip& output, const std::string&,
+                       const std::vector<Attribute>& attributes,
+                       std::vector<AtomicFile>&) -> FrameWriter {
+      return [&clip = output.clip, ascii = output.options.ascii,
+              properties = PlyProperties(attributes)](std::span<const float> positions,
+                                                      std::string& out) {
+        append_ply(clip.polygons, positions, ascii, out, &properties, clip.origin);
+      };
+    },
+    .has_room_for_origin = true};
 
 }  // namespace anicodec::tools

@@ -14,6 +14,8 @@
 
 namespace anicodec::tools {
 
+struct FileFormat;
+
 /// Reads PLY 1.0: ascii, binary_little_endian and binary_big_endian. Takes x, y, z of element
 /// vertex (any number type) and the list vertex_indices or vertex_index of element face (any
 /// integer types); `details`, where given, receives the other numbers of the vertices, see
@@ -29,6 +31,8 @@ void parse_ply(std::string_view bytes, std::string_view name, Mesh& mesh,
 void append_ply(const Polygons& polygons, std::span<const float> positions, bool ascii,
                 std::string& out, const PlyProperties* properties = nullptr,
                 const Point& origin = {});
+
+extern const FileFormat kPly;
 
 }  // namespace anicodec::tools
 

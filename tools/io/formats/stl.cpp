@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/io/formats/stl.h"
 
+#include "codec/sequence/triangulate.h"
 #include "tools/io/base/byte_order.h"
+#include "tools/io/base/file_format.h"
 #include "tools/io/base/text_cursor.h"
 #include "tools/io/base/text_output.h"
 
@@ -10,6 +12,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace anicodec::tools {
 namespace {
@@ -257,5 +262,35 @@ void StlWeld::append_vertices(std::span<const float> soup, std::string_view name
     positions.insert(positions.end(), soup.begin() + size_t{c} * 3,
                      soup.begin() + size_t{c} * 3 + 3);
 }
+
+const FileFormat kStl = {
+    .name = "STL",
+    .extensions = ".stl",
+    .mesh_parser = [](const LoadOptions& options) -> MeshParser {
+      return [soup = std::vector<float>(), weld = std::optional<StlWeld>(),
+              welds = options.weld_stl](std::string_view bytes, const std::string& name, Mesh& mesh,
+                                        MeshDetails*, std::vector<std::string>*) mutable {
+        parse_stl(bytes, name, soup, mesh.origin, mesh.left_out);
+        if (!weld) {
+          weld.emplace(soup, name, welds);
+          mesh.polygons = weld->polygons();
+        }
+        mesh.positions.clear();
+        weld->append_vertices(soup, name, mesh.positions);
+      };
+    },
+    .frame_writer = [](const OutputClip& output, const std::string&, const std::vector<Attribute>&,
+                       std::vector<AtomicFile>&) -> FrameWriter {
+      // The triangles of all frames are those of the first, so that they correspond.
+      return [&clip = output.clip, ascii = output.options.ascii,
+              triangles = std::optional<Polygons>()](std::span<const float> positions,
+                                                     std::string& out) mutable {
+        if (!triangles)
+          triangles = triangulated(clip.polygons, positions);
+        append_stl(*triangles, positions, ascii, out, clip.origin);
+      };
+    },
+    .is_soup = true,
+    .text_has_room_for_origin = true};
 
 }  // namespace anicodec::tools

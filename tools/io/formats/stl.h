@@ -13,6 +13,8 @@
 
 namespace anicodec::tools {
 
+struct FileFormat;
+
 /// Reads STL, binary or ascii (several solids are one mesh), as a soup: triangles x 3 corners x 3
 /// floats, degenerate ones included. Normals are dropped. A file is binary when
 /// its size fits the count of triangles in its header, else ascii. Throws Error(kInput).
@@ -45,6 +47,8 @@ class StlWeld {
   std::vector<uint32_t> vertex_of_corner_;
   std::vector<uint32_t> corner_of_vertex_;  ///< first corner of each vertex
 };
+
+extern const FileFormat kStl;
 
 }  // namespace anicodec::tools
 
