@@ -32,7 +32,7 @@ export interface AssetInfo {
   readonly encoder: string;
   readonly meshes: number;
   readonly segments: number;
-  /** Of all clips. */
+  /** Frames of all clips. */
   readonly frames: number;
   /** Frames per second = numerator / denominator; a hint if `uneven`. */
   readonly rate: number;
@@ -50,15 +50,15 @@ export interface AssetInfo {
   readonly massaged: boolean;
   /** Made from a stream that was not complete: parts are missing or coarser. */
   readonly partial: boolean;
-  /** Of frame 0 on the clock of the source, seconds: for tools alone. Times in this interface count from frame 0. */
+  /** Time of frame 0 on the source's clock, seconds: for tools alone. Times in this interface count from frame 0. */
   readonly startTime: number;
   /** From frame 0 to the last frame, seconds. */
   readonly duration: number;
-  /** Of one turn of ANIC_WRAP_LOOP, seconds. */
+  /** One turn of ANIC_WRAP_LOOP, seconds. */
   readonly loopDuration: number;
   /** 0: unknown. */
   readonly metresPerUnit: number;
-  /** Of the box around all frames of the source. */
+  /** Diagonal of the box around all frames of the source. */
   readonly diagonal: number;
   /**
    * Largest distance of a vertex from its place in the source, at full quality, as the encoder measured it; in units of
@@ -80,8 +80,8 @@ export interface AssetInfo {
   /** Largest error of a vertex's move from frame to frame. */
   readonly maxDisplacementError: number;
   /**
-   * Where the positions of this interface count from, as the source has it: added in double, it gives the source's
-   * coordinates, which may be too far from zero for float32.
+   * Origin of the positions of this interface, as the source has it: added in double, it gives the source's coordinates,
+   * which may be too far from zero for float32.
    */
   readonly origin: [number, number, number];
 }
@@ -106,7 +106,7 @@ export interface NamedClip {
   readonly startTime: number;
   readonly duration: number;
   readonly loopDuration: number;
-  /** Of the box around its frames of the source. */
+  /** Diagonal of the box around its frames of the source. */
   readonly diagonal: number;
   readonly maxError: number;
   readonly rmse: number;
@@ -143,12 +143,12 @@ export interface RootMotion {
 /** A mesh. The string belongs to the asset. */
 export interface MeshInfo {
   readonly name: string;
-  /** Of the source, each once. */
+  /** Vertices of the source, each once. */
   readonly vertexCount: number;
   /** Distinct vertices: the others are copies that move along. */
   readonly codedVertexCount: number;
   readonly polygonCount: number;
-  /** Of all polygons. */
+  /** Corners of all polygons. */
   readonly cornerCount: number;
   /** After anic_write_indices() has cut the polygons. */
   readonly triangleCount: number;
@@ -223,14 +223,14 @@ export interface Box {
 export interface SurfacePoint {
   /** In the order of the triangle, counter-clockwise seen from its front. */
   readonly vertices: [number, number, number];
-  /** Of the vertices; their sum is 1. */
+  /** Weights of the vertices; their sum is 1. */
   readonly weights: [number, number, number];
 }
 
 /** Axes at a point of the surface, of length 1; the third one is normal x tangent. */
 export interface SurfaceFrame {
   readonly position: [number, number, number];
-  /** Of the triangle, on its front. */
+  /** Normal of the triangle, on its front. */
   readonly normal: [number, number, number];
   /** From the triangle's first vertex to the second one. */
   readonly tangent: [number, number, number];
@@ -260,12 +260,12 @@ export interface RenderInfo {
   readonly indicesAt: number;
   /** Polygon of each triangle. */
   readonly trianglePolygonsAt: number;
-  /** Of each group the label of its polygons' material, ascending: 0 for none, or one more than the number of a name. */
+  /** For each group the label of its polygons' material, ascending: 0 for none, or one more than the number of a name. */
   readonly groupMaterialsAt: number;
   /** Group g has the triangles begin[g] .. begin[g + 1] - 1; the groups follow one another and hold all triangles. */
   readonly groupBeginAt: number;
   readonly mesh: number;
-  /** Of render vertices. */
+  /** Number of render vertices. */
   readonly vertexCount: number;
   readonly triangleCount: number;
   /** One for each material that has a triangle. */
@@ -292,9 +292,9 @@ export interface Basis {
   readonly reconstruction: 'linear' | 'msgi';
   readonly target: 'positions' | 'attribute';
   readonly mesh: number;
-  /** Of ANIC_TARGET_ATTRIBUTE: its number. The x of anic_part is to be added to anic_attribute.values. */
+  /** For ANIC_TARGET_ATTRIBUTE: its number. The x of anic_part is to be added to anic_attribute.values. */
   readonly attribute: number;
-  /** Of ANIC_TARGET_ATTRIBUTE: the basis moves this component and the two after it, if the attribute has them. */
+  /** For ANIC_TARGET_ATTRIBUTE: the basis moves this component and the two after it, if the attribute has them. */
   readonly firstComponent: number;
   readonly firstFrame: number;
   readonly frameCount: number;
@@ -305,7 +305,7 @@ export interface Basis {
   readonly channels: number;
   /** Weights of a component: 1 for vectors, 3 for numbers. */
   readonly weightChannels: number;
-  /** Of ANIC_BASIS_KEYFRAMES: added to every vertex before the motion. */
+  /** For ANIC_BASIS_KEYFRAMES: added to every vertex before the motion. */
   readonly origin: [number, number, number];
   /** NULL: none. */
   readonly poseAt: number;
@@ -315,9 +315,9 @@ export interface Basis {
   readonly poseCount: number;
   readonly wideCount: number;
   readonly narrowCount: number;
-  /** Of ANIC_RECONSTRUCTION_MSGI: the point of the shape that each vertex is; NULL: vertex v is point v. */
+  /** With ANIC_RECONSTRUCTION_MSGI: the point of the shape that each vertex is; NULL: vertex v is point v. */
   readonly vertexShapeAt: number;
-  /** Of the surface, each with weights and a pose_map of its own; 1: none. At most ANIC_MAX_REGIONS. */
+  /** Regions of the surface, each with its weights and pose_map; 1: none. At most ANIC_MAX_REGIONS. */
   readonly regions: number;
   /** Region of each vertex, below `regions`; NULL: all are of region 0. */
   readonly vertexRegionAt: number;
@@ -336,11 +336,11 @@ export interface Part {
   readonly segment: number;
   /** The position is the sum of share * x over the parts. */
   readonly share: number;
-  /** Of region 0, then of the others. */
+  /** Weights of region 0, then of the others. */
   readonly weightsAt: number;
   /** NULL with ANIC_RECONSTRUCTION_LINEAR. */
   readonly shapeAt: number;
-  /** Of region 0. */
+  /** Map of region 0. */
   readonly poseMap: number[];
   readonly motion: number[];
   readonly correctionsAt: number;
@@ -351,9 +351,9 @@ export interface Part {
 export interface Parts {
   readonly count: number;
   readonly parts: [Part, Part, Part, Part];
-  /** Of each part: how many weights are to be used, all unless anic_set_quality() said otherwise. */
+  /** For each part: how many weights are to be used, all unless anic_set_quality() said otherwise. */
   readonly components: [number, number, number, number];
-  /** Of each part: pose_map of each region, 12 numbers each; NULL: the basis has no pose. */
+  /** For each part: pose_map of each region, 12 numbers each; NULL: the basis has no pose. */
   readonly poseMapsAt: [number, number, number, number];
 }
 
@@ -366,7 +366,7 @@ export interface StreamInfo {
   readonly segmentCount: number;
   /** Segments that can be opened, coarsely at least. */
   readonly playableSegments: number;
-  /** Of all segments: chunks with components of their bases. */
+  /** Chunks with components of the bases of all segments. */
   readonly layers: number;
   readonly arrivedLayers: number;
   /**

@@ -5,7 +5,6 @@
 #include "codec/file/left_out.h"
 #include "codec/file/live_stream.h"
 #include "format/container.h"
-#include "tools/io/base/file_kind.h"
 #include "tools/io/base/printable.h"
 #include "tools/io/file_formats.h"
 #include "tools/io/files/byte_source.h"

@@ -17,7 +17,7 @@ std::span<const FileFormat* const> file_formats();
 /// The format by extension, in any case of letters; null for others.
 const FileFormat* format_of(const std::string& path);
 
-/// The format of bytes of the standard input: that whose mark stands first, else the first of the table.
+/// The format of bytes of the standard input by the mark that stands first, else the first of the table.
 const FileFormat& format_of_bytes(std::string_view bytes);
 
 /// Extensions of the formats that a predicate holds for: ".obj, .ply and .off". Formats of several are named as

@@ -19,7 +19,7 @@
 namespace anicodec::tools {
 namespace {
 
-/// The frames of a clip, checked and reported. What they are made of must outlive them.
+/// The frames of a clip, checked and reported. The arguments must outlive them.
 FrameSource checked(const MeshSequence& clip, const FrameSource& source, const Progress& progress) {
   return [&](uint32_t f) {
     if (progress)

@@ -106,16 +106,16 @@ namespace Anicodec
     {
         /// <summary>v upwards: (0, 0) is the lower left corner of an image; some graphics interfaces want 1 - v.</summary>
         Uv = 0,
-        /// <summary>Of the first frame. Without components: labels that say which corners share a normal, that is, which edges
+        /// <summary>First frame's normals. Without components: labels that say which corners share a normal, that is, which edges
         /// are hard.</summary>
         Normal = 1,
         Tangent = 2,
         /// <summary>RGB or RGBA, 0 to 1.</summary>
         Colour = 3,
         Custom = 4,
-        /// <summary>Of polygons: names of materials.</summary>
+        /// <summary>Names of the polygons' materials.</summary>
         Material = 5,
-        /// <summary>Of polygons: names of the meshes or objects of the source.</summary>
+        /// <summary>Names of the source's meshes or objects, for polygons.</summary>
         Part = 6,
     }
 

@@ -52,8 +52,8 @@ namespace Anicodec
         /// <summary>The largest error of the numbers of an attribute.</summary>
         public enum Bound
         {
-            /// <summary>Of one that moves attribute_error of anic_encode_options; one that rests has steps of uv_bits, of
-            /// colour_bits, or of a 4095th of its range.</summary>
+            /// <summary>If it moves, attribute_error of anic_encode_options; if it rests, steps of uv_bits, of colour_bits, or of
+            /// a 4095th of its range.</summary>
             Usual = 0,
             /// <summary>`error`, in units of its values.</summary>
             Units = 1,
@@ -109,7 +109,7 @@ namespace Anicodec
         {
             Off = 0,
             On = 1,
-            /// <summary>Where the file becomes smaller.</summary>
+            /// <summary>If the file becomes smaller.</summary>
             Auto = 2,
         }
 

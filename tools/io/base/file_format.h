@@ -24,7 +24,7 @@ struct AlembicTrack;
 struct ByteSource;
 struct VertexCache;
 
-/// What a file of a format holds.
+/// The contents of a file of a format.
 enum class FileRole {
   kMesh,    ///< one frame
   kCache,   ///< positions of all frames, without faces
@@ -63,21 +63,21 @@ struct FileFormat {
   std::string_view extensions;
   FileRole role = FileRole::kMesh;
 
-  /// Where its mark stands in bytes of the standard input; npos: nowhere. Null: it is not read from there.
+  /// The place of its mark in bytes of the standard input; npos: nowhere. Null: it is not read from there.
   size_t (*find_mark)(std::string_view bytes) = nullptr;
   MeshParser (*mesh_parser)(const LoadOptions& options) = nullptr;
   VertexCache (*open_cache)(const ByteSource& source) = nullptr;
-  /// Of scenes and archives.
+  /// Reads scenes and archives.
   MeshSequence (*read_clip)(const InputFile& file, const LoadOptions& options) = nullptr;
   /// A mesh for each object and connectivity.
   Scene (*read_meshes)(const InputFile& file, const LoadOptions& options) = nullptr;
 
-  /// Of a format with a file per frame. Files that stand beside the first are added to `files`. The values of
+  /// Writes formats with a file per frame. Files that stand beside the first are added to `files`. The values of
   /// `attributes`, whose address stays, are those of the frame that is written.
   FrameWriter (*frame_writer)(const OutputClip& output, const std::string& first_path,
                               const std::vector<Attribute>& attributes,
                               std::vector<AtomicFile>& files) = nullptr;
-  /// Of all others that are written.
+  /// Writes all other formats.
   void (*write_clip)(const OutputClip& output) = nullptr;
   /// Several meshes on one clock, which need not be there in all frames.
   void (*write_tracks)(const std::string& path, const MeshSequence& clip,

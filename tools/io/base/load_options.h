@@ -23,9 +23,9 @@ namespace anicodec::tools {
 struct LoadOptions {
   /// Overrides what the input says, an uneven table of times included; a scene is sampled at it.
   std::optional<FrameRate> rate = {};
-  /// Mesh of a lone vertex cache; empty: same stem .obj, .ply or .off beside it. Of a scene: the
-  /// name of a mesh or node, of an Alembic archive the path of a mesh or of what holds it; empty:
-  /// all of them.
+  /// Mesh of a lone vertex cache; empty: same stem .obj, .ply or .off beside it. For a scene: the
+  /// name of a mesh or node; for an Alembic archive the path of a mesh or of an object above it;
+  /// empty: all of them.
   std::string mesh = {};
   /// Animation of a scene, see GltfOptions.
   std::string clip = {};
@@ -47,7 +47,7 @@ struct LoadOptions {
   uint64_t memory = half_of_machine();
   /// Scenes may name files outside their folder.
   bool allow_outside = false;
-  /// The clip goes back into its scene, so that what surrounds it is not lost.
+  /// The clip goes back into its scene, which keeps all data around it.
   bool scene_stays = false;
   /// Stage "reading".
   Progress progress = {};
