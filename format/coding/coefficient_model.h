@@ -149,7 +149,7 @@ class CoefficientModel {
   static constexpr int kMostSign = 20;
   static constexpr int16_t kSignWeights[kNear] = {4, 2, 2, 2, 0, 0, 0, 0};
 
-  typedef int16_t Signs ANICODEC_VECTOR(2 * kNear);
+  using Signs = int16_t ANICODEC_VECTOR(2 * kNear);
 
   struct Batch {
     Vertex vertices[kBatch];

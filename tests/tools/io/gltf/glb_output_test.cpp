@@ -8,6 +8,7 @@
 #include "tests/tools/command_testing.h"
 #include "tests/tools/gltf_testing.h"
 #include "tests/two_boxes.h"
+#include "tools/io/gltf/gltf.h"
 #include "tools/io/load_sequence.h"
 #include "tools/io/write_sequence.h"
 
