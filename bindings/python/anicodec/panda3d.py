@@ -223,8 +223,8 @@ class ClipActor(NodePath):
         move, turn = np.zeros(3), 0.0
         for clip, time, weight in moves:
             step = self.clip._asset.root_step(clip, time, time + seconds, _LINEAR, self._wrap)
-            move += weight * np.array(step[1])
-            turn += weight * step[0]
+            move += weight * np.array(step["move"])
+            turn += weight * step["turn"]
         if self.clip.info["up"] != "z":
             move = np.array([move[0], -move[2], move[1]])
         self.root.set_pos(self.root, *move)
