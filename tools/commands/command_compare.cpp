@@ -144,6 +144,8 @@ Measured measure(const ComparedClip& a, const ComparedClip& b, const CompareComm
   if (p.frame_count != q.frame_count)
     throw Error(ErrorKind::kInput, fmt::format("{}: {} frames, but {} has {}", b.path(),
                                                q.frame_count, a.path(), p.frame_count));
+  a.check_empty_frames();
+  b.check_empty_frames();
   Measured m;
   bool by_vertex = false;
   if (p.vertex_count != q.vertex_count)

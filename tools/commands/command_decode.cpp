@@ -5,6 +5,7 @@
 #include "tools/inputs/played_clip.h"
 #include "tools/inputs/turned_axes.h"
 #include "tools/io/file_formats.h"
+#include "tools/io/files/name_pattern.h"
 #include "tools/io/gltf/gltf_format.h"
 #include "tools/io/load_sequence.h"
 #include "tools/io/write_sequence.h"
@@ -15,9 +16,11 @@
 #include "tools/words/quantity.h"
 #include "tools/words/word_table.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -38,7 +41,8 @@ metres, where the clip says which axis is up and what its unit is; a cache and t
 keep the axes of the clip, so that the cache fits the mesh that it came from (--up turns both).
 Frames are counted from 0; A:B is A to B - 1, both may be left out, and A alone is one frame. A rate
 that STEP divides is divided; PC2 carries no rate. A clip whose topology changes needs a file per
-frame, or .abc. OUT may be a stage of USD (.usd .usda .usdc .usdz) if pip has installed
+frame, or .abc. Frames that show no mesh have no file of their own; other outputs hold them, at most a
+million of them. OUT may be a stage of USD (.usd .usda .usdc .usdz) if pip has installed
 'anicodec[usd]', or a result of a simulation (.pvd .vtkhdf .xdmf .npz) with 'anicodec[vtk]':
 anicodec decode -o x.usd --help.
 
@@ -91,28 +95,33 @@ struct DecodeRun {
 
 /// Some frames of a clip, cut where what they show changes; those that show nothing are left out.
 std::vector<DecodeRun> runs_of(const PlayedClip& clip, const FrameRange& range) {
-  std::vector<DecodeRun> runs;
-  for (uint32_t i = 0; i < range.size(); ++i) {
-    const uint32_t f = range.first + i * range.step;
-    std::vector<uint32_t> shown = clip.meshes();
-    std::erase_if(shown, [&](uint32_t m) { return !clip.shows(m, f); });
-    if (runs.empty() || runs.back().meshes != shown)
-      runs.push_back({{f, f + 1, range.step}, std::move(shown)});
-    runs.back().frames.end = f + 1;
-  }
-  std::erase_if(runs, [](const DecodeRun& run) { return run.meshes.empty(); });
-  return runs;
-}
+  struct Change {
+    uint32_t at, mesh;  // number in the range
+    bool appears;
+  };
 
-/// The frames of a range that show a mesh, counted in the range.
-std::vector<FrameRun> present_in(const PlayedClip& clip, uint32_t mesh, const FrameRange& range) {
-  std::vector<FrameRun> runs;
-  for (uint32_t i = 0; i < range.size(); ++i) {
-    if (!clip.shows(mesh, range.first + i * range.step))
+  std::vector<Change> changes;
+  for (uint32_t m : clip.meshes()) {
+    for (const FrameRun& run : runs_in(clip.present_in(m), range)) {
+      changes.push_back({run.first, m, true});
+      changes.push_back({run.first + run.count, m, false});
+    }
+  }
+  std::ranges::sort(changes, {}, &Change::at);
+  std::vector<DecodeRun> runs;
+  std::set<uint32_t> shown;
+  for (size_t i = 0; i < changes.size(); ++i) {
+    const auto& [at, mesh, appears] = changes[i];
+    if (appears)
+      shown.insert(mesh);
+    else
+      shown.erase(mesh);
+    if (shown.empty() || changes[i + 1].at == at)
       continue;
-    if (runs.empty() || runs.back().first + runs.back().count != i)
-      runs.push_back({i, 0});
-    ++runs.back().count;
+    const uint32_t last = changes[i + 1].at - 1;
+    runs.push_back(
+        {{range.first + at * range.step, range.first + last * range.step + 1, range.step},
+         {shown.begin(), shown.end()}});
   }
   return runs;
 }
@@ -140,7 +149,7 @@ Written write_archive(const DecodePaths& paths, const PlayedClip& clip, const Fr
   std::vector<AlembicTrack> tracks;
   for (uint32_t m : clip.meshes()) {
     AlembicTrack track;
-    track.present_in = present_in(clip, m, range);
+    track.present_in = runs_in(clip.present_in(m), range);
     if (track.present_in.empty())
       continue;
     track.mesh = clip.describe({m});
@@ -178,7 +187,6 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
   options.step = command.hold;
   options.normals = command.normals;
   options.group_faces = clip.order() != ANIC_ORDER_ALL;
-  options.first_number = command.start;
   options.progress = line.callback();
   const UpAxis up = clip.up();
   const AxisTurn turn(up, up_of_output(paths.output, up, command.up));
@@ -191,27 +199,39 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
     images = load_images(command.textures);
     options.images = &images;
   }
-  check_sequence_output(paths.output, range.size(), options);
+  const bool by_frame = is_written_by_frame(paths.output);
+  std::vector<DecodeRun> runs{{range, clip.meshes()}};
+  if (by_frame)
+    runs = runs_of(clip, range);
+  else
+    clip.check_empty_frames(range);
+  const auto number_of = [&](const FrameRange& own) {
+    return command.start + (own.first - range.first) / range.step;
+  };
+  if (runs.size() > 1 && !parse_name_pattern(paths.output).has_number)
+    check_sequence_output(paths.output, range.size(), options);  // says so
+  for (const DecodeRun& run : runs) {
+    options.first_number = number_of(run.frames);
+    check_sequence_output(paths.output, run.frames.size(), options);
+  }
   if (format_of(paths.output)->write_tracks) {
     const Written written = write_archive(paths, clip, range, options);
     line.clear();
     return print_written(written, common);
   }
-  const bool by_frame = is_written_by_frame(paths.output);
   if (!by_frame && clip.takes_turns())
     throw Error(ErrorKind::kUsage,
                 fmt::format("{}: has one mesh, but {} has {} that take turns; write a file per "
                             "frame, as in frame_%04d.obj, or .abc",
                             paths.output, paths.input, clip.meshes().size()));
   std::vector<Written> written;
-  for (const auto& [own, meshes] :
-       by_frame ? runs_of(clip, range) : std::vector<DecodeRun>{{range, clip.meshes()}}) {
+  for (const auto& [own, meshes] : runs) {
     MeshSequence description = clip.describe(meshes);
     if (own.size() < clip.frame_count())
       take_frames(own, description);
     else if (is_scene_output(paths.output) && clip.clips().size() > 1)
       description.clips = clip.timings();
-    options.first_number = command.start + (own.first - range.first) / range.step;
+    options.first_number = number_of(own);
     turn.turn(description.attributes);
     description.origin = turn.turned(description.origin);
     FrameSource all = turn.turned(clip.play(meshes));

@@ -231,6 +231,7 @@ void run(const ExportVatCommand& command, const CommonOptions& common) {
   FrameRange range{0, clip.frame_count(), 1};
   if (!command.frames.empty())
     range = parse_frames(command.frames, "--frames", clip.frame_count());
+  clip.check_empty_frames(range);
 
   MeshSequence described = clip.describe(clip.meshes());
   std::vector<std::string> lost = left_out(clip, described);

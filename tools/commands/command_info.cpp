@@ -70,15 +70,15 @@ struct Contents {
   nlohmann::ordered_json metadata = nlohmann::ordered_json::object();
 };
 
-/// The runs of frames that show a mesh.
+/// The runs of frames that show a mesh. O(its segments).
 std::vector<FrameRun> frames_of_mesh(const Clip& clip, uint32_t mesh) {
   std::vector<FrameRun> runs;
-  for (uint32_t f = 0; f < clip.frame_count(); ++f) {
-    if (!clip.segment_at(mesh, f))
-      continue;
-    if (runs.empty() || runs.back().first + runs.back().count != f)
-      runs.push_back({f, 0});
-    ++runs.back().count;
+  const Track& track = clip.tracks()[mesh];
+  for (uint32_t i = track.begin; i < track.end; ++i) {
+    const Segment& segment = clip.segments()[clip.by_frame()[i]];
+    if (runs.empty() || runs.back().first + runs.back().count != segment.first_frame)
+      runs.push_back({segment.first_frame, 0});
+    runs.back().count += segment.frames;
   }
   return runs;
 }

@@ -62,15 +62,17 @@ void play(const std::string& path, const Clip& clip, uint32_t mesh, uint32_t fra
 void check_frames(const std::string& path, const Clip& clip, ProgressLine& line) {
   std::vector<float> positions;
   for (uint32_t mesh = 0; mesh < clip.meshes().size(); ++mesh) {
-    for (uint32_t f = 0; f < clip.frame_count(); ++f) {
-      if (!clip.segment_at(mesh, f))
-        continue;
-      line.show("playing", static_cast<double>(f) / clip.frame_count());
-      play(path, clip, mesh, f, &positions);
-      for (size_t i = 0; i < positions.size(); ++i) {
-        if (!std::isfinite(positions[i]))
-          throw Error(ErrorKind::kCorrupt,
-                      fmt::format("{}: frame {}: vertex {} is not finite", path, f, i / 3));
+    const Track& track = clip.tracks()[mesh];
+    for (uint32_t i = track.begin; i < track.end; ++i) {
+      const Segment& segment = clip.segments()[clip.by_frame()[i]];
+      for (uint32_t f = segment.first_frame; f < segment.first_frame + segment.frames; ++f) {
+        line.show("playing", static_cast<double>(f) / clip.frame_count());
+        play(path, clip, mesh, f, &positions);
+        for (size_t k = 0; k < positions.size(); ++k) {
+          if (!std::isfinite(positions[k]))
+            throw Error(ErrorKind::kCorrupt,
+                        fmt::format("{}: frame {}: vertex {} is not finite", path, f, k / 3));
+        }
       }
     }
   }

@@ -58,6 +58,11 @@ ComparedClip::ComparedClip(const std::string& path, const std::string& mesh,
   sequence_.frame_count = range_.size();
 }
 
+void ComparedClip::check_empty_frames() const {
+  if (clip_)
+    clip_->check_empty_frames(range_);
+}
+
 bool ComparedClip::has_free_order() const {
   return clip_ && clip_->order() == ANIC_ORDER_FREE;
 }

@@ -40,6 +40,9 @@ class ComparedClip {
   /// Size of the .anic file, 0 for all else.
   uint64_t bytes() const { return bytes_; }
 
+  /// Throws as PlayedClip::check_empty_frames(), for an .anic file.
+  void check_empty_frames() const;
+
   /// True for an .anic file that does not keep the order of the source's vertices.
   bool has_free_order() const;
 

@@ -98,17 +98,34 @@ std::vector<double> times_of(const anic::Asset& asset, const anic_clip& clip) {
   return times;
 }
 
-/// The frame, or where it does not show a mesh the last one before that does, or the first.
+/// The frame, or where it does not show a mesh the last one before that does, or the first. O(log runs).
 uint32_t shown_frame(const std::vector<FrameRun>& present_in, uint32_t frame) {
-  uint32_t shown = present_in.empty() ? frame : present_in[0].first;
-  for (const FrameRun& run : present_in) {
-    if (run.first <= frame)
-      shown = std::min(frame, run.first + run.count - 1);
-  }
-  return shown;
+  const auto after = std::ranges::upper_bound(present_in, frame, {}, &FrameRun::first);
+  if (after == present_in.begin())
+    return present_in.empty() ? frame : present_in[0].first;
+  const FrameRun& run = *(after - 1);
+  return std::min(frame, run.first + run.count - 1);
 }
 
 }  // namespace
+
+std::vector<FrameRun> runs_in(const std::vector<FrameRun>& runs, const FrameRange& range) {
+  // the number of the range's first frame from one on
+  const auto number = [&range](uint32_t frame) {
+    const uint32_t from_first = std::max(frame, range.first) - range.first;
+    return std::min(range.size(), from_first / range.step + (from_first % range.step != 0));
+  };
+  std::vector<FrameRun> counted;
+  for (const FrameRun& run : runs) {
+    const uint32_t first = number(run.first), end = number(run.first + run.count);
+    if (first == end)
+      continue;
+    if (counted.empty() || counted.back().first + counted.back().count != first)
+      counted.push_back({first, 0});
+    counted.back().count += end - first;
+  }
+  return counted;
+}
 
 PlayedClip::PlayedClip(const std::string& path, ByteView bytes, Topologies allowed, double quality)
     : path_(path), player_(std::make_unique<Player>()) {
@@ -215,17 +232,33 @@ std::vector<uint32_t> PlayedClip::meshes() const {
   return meshes;
 }
 
-bool PlayedClip::shows(uint32_t mesh, uint32_t frame) const {
-  return std::ranges::any_of(present_in_[mesh], [frame](const FrameRun& run) {
-    return run.first <= frame && frame - run.first < run.count;
-  });
-}
-
-bool PlayedClip::takes_turns() const {
+/// Those of each mesh, ascending by first frame.
+std::vector<FrameRun> PlayedClip::runs_of_all() const {
   std::vector<FrameRun> runs;
   for (const std::vector<FrameRun>& own : present_in_)
     runs.insert(runs.end(), own.begin(), own.end());
   std::ranges::sort(runs, {}, &FrameRun::first);
+  return runs;
+}
+
+void PlayedClip::check_empty_frames(const FrameRange& range) const {
+  constexpr uint32_t kMost = 1'000'000;
+  uint32_t empty = range.size(), end = 0;
+  for (const FrameRun& run : runs_of_all()) {
+    for (const FrameRun& taken : runs_in({run}, range)) {
+      const uint32_t first = std::max(taken.first, end);
+      end = std::max(end, taken.first + taken.count);
+      empty -= end - first;
+    }
+  }
+  if (empty > kMost)
+    throw Error(ErrorKind::kInput,
+                fmt::format("{}: {} of {} frames show nothing; take some of the frames only", path_,
+                            empty, range.size()));
+}
+
+bool PlayedClip::takes_turns() const {
+  const std::vector<FrameRun> runs = runs_of_all();
   for (size_t i = 1; i < runs.size(); ++i) {
     if (runs[i].first < runs[i - 1].first + runs[i - 1].count)
       return false;
@@ -286,20 +319,29 @@ void PlayedClip::check_played(anic::Status status, uint32_t frame) const {
 FrameSource PlayedClip::play(const std::vector<uint32_t>& meshes) const {
   struct Part {
     uint32_t mesh;
-    size_t first, count;  // floats
+    size_t first, count;         // floats
+    uint32_t away = UINT32_MAX;  // the frame whose first vertex all are at, if they are
   };
 
-  std::vector<Part> parts;
+  struct Parts {
+    std::vector<Part> parts;
+    std::vector<float> positions;
+  };
+
+  auto all = std::make_shared<Parts>();
   size_t count = 0;
   for (uint32_t m : meshes) {
-    parts.push_back({m, count, size_t{3} * vertex_count(m)});
-    count += parts.back().count;
+    all->parts.push_back({m, count, size_t{3} * vertex_count(m)});
+    count += all->parts.back().count;
   }
-  auto positions = std::make_shared<std::vector<float>>(count);
-  return [this, parts, positions](uint32_t frame) -> std::span<const float> {
-    for (const Part& part : parts) {
+  all->positions.resize(count);
+  return [this, all](uint32_t frame) -> std::span<const float> {
+    for (Part& part : all->parts) {
       const uint32_t shown = shown_frame(present_in_[part.mesh], frame);
-      const std::span<float> own(positions->data() + part.first, part.count);
+      if (shown != frame && part.away == shown)
+        continue;
+      part.away = shown != frame ? shown : UINT32_MAX;
+      const std::span<float> own(all->positions.data() + part.first, part.count);
       anic::Status status = show(shown);
       if (status)
         status = player_->context.write_positions(anic::output(own), 0,
@@ -309,7 +351,7 @@ FrameSource PlayedClip::play(const std::vector<uint32_t>& meshes) const {
       for (size_t i = 3; shown != frame && i < own.size(); ++i)
         own[i] = own[i - 3];
     }
-    return *positions;
+    return all->positions;
   };
 }
 

@@ -6,6 +6,7 @@
 #include "codec/sequence/frame_source.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "format/bytes.h"
+#include "tools/words/quantity.h"
 
 #include <anicodec/anicodec.hpp>
 
@@ -16,6 +17,9 @@
 #include <vector>
 
 namespace anicodec::tools {
+
+/// The part of ascending runs that a range takes, counted in the range. O(runs).
+std::vector<FrameRun> runs_in(const std::vector<FrameRun>& runs, const FrameRange& range);
 
 /// Clips that a command can work on: kOne, only clips of one connectivity.
 enum class Topologies { kOne, kAny };
@@ -54,13 +58,15 @@ class PlayedClip {
   /// Numbers of all meshes.
   std::vector<uint32_t> meshes() const;
 
-  /// The runs of frames that show a mesh.
+  /// The runs of frames that show a mesh, ascending.
   const std::vector<FrameRun>& present_in(uint32_t mesh) const { return present_in_[mesh]; }
-
-  bool shows(uint32_t mesh, uint32_t frame) const;
 
   /// True for several meshes that no frame shows together: a clip whose connectivity changes.
   bool takes_turns() const;
+
+  /// Throws Error(kInput) where a range takes more than a million frames that show nothing: a file of a few bytes may
+  /// announce 16 million.
+  void check_empty_frames(const FrameRange& range) const;
 
   /// Some meshes as one, see merge_meshes(): counts, polygons, metadata, and the timing of all
   /// frames: of several clips, at the rate of the first.
@@ -84,6 +90,7 @@ class PlayedClip {
 
   std::vector<MeshSequence> describe_meshes(const std::vector<uint32_t>& meshes) const;
   void list_frames();
+  std::vector<FrameRun> runs_of_all() const;
   anic::Status show(uint32_t frame) const;
   void check_played(anic::Status status, uint32_t frame) const;
 

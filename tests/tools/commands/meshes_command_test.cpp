@@ -2,11 +2,13 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Clips of several meshes, by the command.
+#include "tests/codec/edited_file.h"
 #include "tests/tools/command_testing.h"
 #include "tests/two_boxes.h"
 #include "tools/io/load_sequence.h"
 #include "tools/io/write_sequence.h"
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -60,6 +62,41 @@ TEST_F(Meshes, CompareAsOne) {
       anicodec({"compare", folder_ / "in/*.obj", folder_ / "a.anic", "--json", "--no-sted"});
   ASSERT_EQ(outcome.status, 0) << outcome;
   EXPECT_LE(outcome.json()["kg"], 0.1001);
+}
+
+/// The same file, which announces as many frames as the format has numbers for.
+TEST_F(Meshes, OfFramesThatShowNothingCostNothing) {
+  constexpr uint32_t kFrames = (1 << 24) - 1;
+  const std::string bytes = folder_.read("a.anic");
+  EditedFile edited(Bytes(bytes.begin(), bytes.end()));
+  edited.change_limits([](Limits& limits) {
+    limits.frames = kFrames;
+    limits.clip_frames.assign(1, limits.frames);
+  });
+  const Bytes long_one = edited.bytes();
+  folder_.write("long.anic", std::string(long_one.begin(), long_one.end()));
+
+  const auto start = std::chrono::steady_clock::now();
+  const Outcome info = anicodec({"info", folder_ / "long.anic", "--json"});
+  EXPECT_EQ(info.json()["frames"], kFrames);
+  EXPECT_EQ(info.json()["meshes"][1]["frames"], (nlohmann::json{{0, 4}, {8, 12}}));
+  EXPECT_EQ(anicodec({"verify", folder_ / "long.anic"}).status, 0);
+  for (const char* output : {"long.pc2", "long.glb", "long.abc"}) {
+    const Outcome decoded = anicodec({"decode", folder_ / "long.anic", "-o", folder_ / output});
+    EXPECT_EQ(decoded.status, 2) << decoded;
+    EXPECT_THAT(decoded.err, HasSubstr("16777203 of 16777215 frames show nothing"));
+  }
+  const Outcome compared = anicodec({"compare", folder_ / "long.anic", folder_ / "long.anic"});
+  EXPECT_EQ(compared.status, 2) << compared;
+  EXPECT_EQ(anicodec({"export-vat", folder_ / "long.anic", "-o", folder_ / "textures"}).status, 2);
+  ASSERT_EQ(
+      anicodec({"decode", folder_ / "long.anic", "--frames", "0:20", "-o", folder_ / "some.pc2"})
+          .status,
+      0);
+  ASSERT_EQ(anicodec({"decode", folder_ / "long.anic", "-o", folder_ / "all/f_%02d.obj"}).status,
+            0);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
+  EXPECT_EQ(frame("all/f_05.obj").vertex_count, frame("all/f_11.obj").vertex_count / 2);
 }
 
 TEST_F(Meshes, GoWithoutMassageAndParts) {
