@@ -50,7 +50,7 @@ def declaration_faults(checkout, work, compiler):
         c = without_comments((checkout / header).read_text(encoding="utf-8"))
         told["function"] |= set(re.findall(r"ANIC_API[^;]*?\b(anic_\w+)\(", c))
         declared["function"] |= set(re.findall(r"\bpub fn (anic_\w+)\(", rust))
-        told["constant"] |= set(re.findall(r"\b(ANIC_[A-Z0-9_]+) = \d+", c)) | set(re.findall(r"#define (ANIC_[A-Z_]+) \d+\n", c))
+        told["constant"] |= set(re.findall(r"\b(ANIC_[A-Z0-9_]+) =\s*\d+", c)) | set(re.findall(r"#define (ANIC_[A-Z_]+) \d+\n", c))
         for name, value in re.findall(r"\bpub const (ANIC_\w+): \w+ = (\d+);", rust):
             declared["constant"].add(name)
             ours[f"constant {name}"] = value

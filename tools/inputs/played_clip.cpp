@@ -232,7 +232,7 @@ std::vector<uint32_t> PlayedClip::meshes() const {
   return meshes;
 }
 
-/// Those of each mesh, ascending by first frame.
+/// The runs of each mesh, ascending by first frame.
 std::vector<FrameRun> PlayedClip::runs_of_all() const {
   std::vector<FrameRun> runs;
   for (const std::vector<FrameRun>& own : present_in_)
