@@ -79,9 +79,10 @@ VertexProducts::VertexProducts(const FrameView& clip, const Eigen::Vector3d& ori
       gram_(vertex_gram_of_axes(clip, origin)) {}
 
 const MatrixXd& VertexProducts::shape_gram() const {
-  // Isolated: a thread that waits for others in it must not take a task that waits for it.
-  std::call_once(first_shapes_,
-                 [&] { isolated([&] { shape_gram_ = vertex_gram(clip_, origin_); }); });
+  const std::scoped_lock lock(mutex_);
+  // Isolated: a thread that waits for others in it must not take a task that waits for the lock.
+  if (shape_gram_.size() == 0)
+    isolated([&] { shape_gram_ = vertex_gram(clip_, origin_); });
   return shape_gram_;
 }
 

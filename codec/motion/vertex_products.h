@@ -41,9 +41,9 @@ class VertexProducts : public MotionProducts {
   Eigen::Vector3d origin_;
   Eigen::VectorXd ones_;
   double real_vertices_;
-  Eigen::MatrixXd gram_;  ///< vertices x vertices, all axes
-  mutable std::once_flag first_shapes_;
-  mutable Eigen::MatrixXd shape_gram_;  ///< 3 vertices x 3 vertices
+  Eigen::MatrixXd gram_;                ///< vertices x vertices, all axes
+  mutable std::mutex mutex_;            ///< of shape_gram_
+  mutable Eigen::MatrixXd shape_gram_;  ///< 3 vertices x 3 vertices; empty: not made yet
 };
 
 }  // namespace anicodec

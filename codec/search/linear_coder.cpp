@@ -155,13 +155,15 @@ std::shared_ptr<const EncodedPose> LinearCoder::coded_pose(MadeBasis& made,
                                                            const LinearSettings& settings) {
   if (pose_)
     return pose_;
-  std::call_once(made.first_use, [&] {
-    made.pose.emplace(made.basis.pose, made.basis.origin, input_.layout,
-                      bytes_per_nanosecond(smallest_));
-  });
   const double step = shared_pose_step(settings, analysis_.clip().frame_count);
   {
     const std::scoped_lock lock(made.mutex);
+    // Isolated: a thread that waits for others in it must not take a task that waits for the lock.
+    if (!made.pose)
+      isolated([&] {
+        made.pose.emplace(made.basis.pose, made.basis.origin, input_.layout,
+                          bytes_per_nanosecond(smallest_));
+      });
     if (const auto found = made.poses.find(step); found != made.poses.end())
       return found->second;
   }

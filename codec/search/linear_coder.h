@@ -137,9 +137,9 @@ class LinearCoder : public SegmentCoder {
   struct MadeBasis {
     MemoryShare memory;
     LinearBasis basis;
-    std::once_flag first_use;                                    ///< of what follows
+    // No std::once_flag: glibc ends the process where a function of one throws and there is no memory to unwind.
+    std::mutex mutex;                                            ///< of both poses
     std::optional<ReferencePoseEncoder> pose;                    ///< of the basis
-    std::mutex mutex;                                            ///< of what follows
     std::map<double, std::shared_ptr<const EncodedPose>> poses;  ///< by their step
   };
 
