@@ -40,11 +40,11 @@ variance in the space itself that the components leave.
 With -o, or --json, the clip is encoded at two errors instead, which takes about as long as encode
 with the same --effort: sizes, where bytes and errors are, pictures, and the clip in a player.
 --full measures more, for some minutes: sizes at several errors, also with key-frames alone and with
-other codecs, key-frames and shape spaces. The page needs
-nothing but a browser; --json prints its numbers: name, vertices, faces, frames, frame_rate,
-diagonal, rates (codec, bytes, bpfv, kg, max_error_percent, sted), shown_kg, shown_bytes, shares,
-frame_errors (rmse, max_error), basis_errors (method, k, kg, rmse), shape_spaces (space, k, kg, numbers, bytes, residual_percent). With -o x.svg the
-curves of size against KG error alone.
+other codecs, key-frames and shape spaces. The page needs nothing but a browser; --json prints its
+numbers: name, vertices, faces, frames, frame_rate, diagonal, rates (codec, bytes, bpfv, kg,
+max_error_percent, sted), shown_kg, shown_bytes, shares, frame_errors (rmse, max_error),
+basis_errors (method, k, kg, rmse), shape_spaces (space, k, kg, numbers, bytes, residual_percent).
+With -o x.svg the curves of size against KG error alone.
 
 --massage-study measures instead what anicodec massage does to the clip: KG errors in K principal
 components and sizes, of the clip as it is and massaged, how far the surface moved, and the shapes

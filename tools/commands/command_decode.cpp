@@ -41,8 +41,8 @@ metres, where the clip says which axis is up and what its unit is; a cache and t
 keep the axes of the clip, so that the cache fits the mesh that it came from (--up turns both).
 Frames are counted from 0; A:B is A to B - 1, both may be left out, and A alone is one frame. A rate
 that STEP divides is divided; PC2 carries no rate. A clip whose topology changes needs a file per
-frame, or .abc. Frames that show no mesh have no file of their own; other outputs hold them, at most a
-million of them. OUT may be a stage of USD (.usd .usda .usdc .usdz) if pip has installed
+frame, or .abc. Frames that show no mesh have no file of their own; other outputs hold them, at most
+a million of them. OUT may be a stage of USD (.usd .usda .usdc .usdz) if pip has installed
 'anicodec[usd]', or a result of a simulation (.pvd .vtkhdf .xdmf .npz) with 'anicodec[vtk]':
 anicodec decode -o x.usd --help.
 
