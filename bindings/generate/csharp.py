@@ -115,7 +115,7 @@ class _Writer:
                 public {self._handles[name]}() : base(IntPtr.Zero, true) {{ }}
                 public override bool IsInvalid {{ get {{ return handle == IntPtr.Zero; }} }}
 
-                /// <summary>What a handle does after it.</summary>
+                /// <summary>Runs behind the release, for handles that keep others open.</summary>
                 partial void Released();
 
                 protected override bool ReleaseHandle()

@@ -46,7 +46,7 @@ namespace Anicodec
         Hash = 49,
         /// <summary>a continuation of a live stream follows a file with other meshes.</summary>
         Meshes = 50,
-        /// <summary>a file of a live stream continues one that was lost, or not opened in full.</summary>
+        /// <summary>A file of a live stream continues one that was lost, or not opened in full.</summary>
         SegmentMissing = 51,
         /// <summary>More than anic_options allow.</summary>
         Limit = 60,

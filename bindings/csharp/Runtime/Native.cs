@@ -12,7 +12,7 @@ namespace Anicodec
         public AssetHandle() : base(IntPtr.Zero, true) { }
         public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
 
-        /// <summary>What a handle does after it.</summary>
+        /// <summary>Runs behind the release, for handles that keep others open.</summary>
         partial void Released();
 
         protected override bool ReleaseHandle()
@@ -28,7 +28,7 @@ namespace Anicodec
         public ContextHandle() : base(IntPtr.Zero, true) { }
         public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
 
-        /// <summary>What a handle does after it.</summary>
+        /// <summary>Runs behind the release, for handles that keep others open.</summary>
         partial void Released();
 
         protected override bool ReleaseHandle()
@@ -44,7 +44,7 @@ namespace Anicodec
         public NormalPlanHandle() : base(IntPtr.Zero, true) { }
         public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
 
-        /// <summary>What a handle does after it.</summary>
+        /// <summary>Runs behind the release, for handles that keep others open.</summary>
         partial void Released();
 
         protected override bool ReleaseHandle()
@@ -60,7 +60,7 @@ namespace Anicodec
         public RenderPlanHandle() : base(IntPtr.Zero, true) { }
         public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
 
-        /// <summary>What a handle does after it.</summary>
+        /// <summary>Runs behind the release, for handles that keep others open.</summary>
         partial void Released();
 
         protected override bool ReleaseHandle()
@@ -76,7 +76,7 @@ namespace Anicodec
         public MorpherHandle() : base(IntPtr.Zero, true) { }
         public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
 
-        /// <summary>What a handle does after it.</summary>
+        /// <summary>Runs behind the release, for handles that keep others open.</summary>
         partial void Released();
 
         protected override bool ReleaseHandle()
@@ -92,7 +92,7 @@ namespace Anicodec
         public StreamHandle() : base(IntPtr.Zero, true) { }
         public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
 
-        /// <summary>What a handle does after it.</summary>
+        /// <summary>Runs behind the release, for handles that keep others open.</summary>
         partial void Released();
 
         protected override bool ReleaseHandle()

@@ -12,7 +12,7 @@ namespace Anicodec
         public EncoderHandle() : base(IntPtr.Zero, true) { }
         public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
 
-        /// <summary>What a handle does after it.</summary>
+        /// <summary>Runs behind the release, for handles that keep others open.</summary>
         partial void Released();
 
         protected override bool ReleaseHandle()
@@ -28,7 +28,7 @@ namespace Anicodec
         public LiveHandle() : base(IntPtr.Zero, true) { }
         public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
 
-        /// <summary>What a handle does after it.</summary>
+        /// <summary>Runs behind the release, for handles that keep others open.</summary>
         partial void Released();
 
         protected override bool ReleaseHandle()

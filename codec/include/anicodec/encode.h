@@ -159,15 +159,15 @@ ANIC_API anic_status anic_add_source_mesh(anic_encoder* encoder, const anic_sour
 
 /** The largest error of the numbers of an attribute. */
 enum anic_bound ANIC_INT32 {
-  ANIC_BOUND_USUAL =
-      0, /**< if it moves, attribute_error of anic_encode_options; if it rests, steps of
-                               uv_bits, of colour_bits, or of a 4095th of its range */
+  /** If it moves, attribute_error of anic_encode_options; if it rests, steps of uv_bits, of
+   * colour_bits, or of a 4095th of its range. */
+  ANIC_BOUND_USUAL = 0,
   ANIC_BOUND_UNITS = 1, /**< `error`, in units of its values */
-  ANIC_BOUND_PERCENT =
-      2, /**< `error`, in per cent of its range: of the component with the largest, over all frames */
-  ANIC_BOUND_EXACT =
-      3 /**< none once values are rounded: they are whole, up to 2^24, up to 2^18 of one that moves. The
-                               metadata's "fields" say "whole": true of its name */
+  /** `error`, in per cent of its range: of the component with the largest, over all frames. */
+  ANIC_BOUND_PERCENT = 2,
+  /** None once values are rounded: they are whole, up to 2^24, up to 2^18 of one that moves. The
+   * metadata's "fields" say "whole": true of its name. */
+  ANIC_BOUND_EXACT = 3
 };
 
 /** Values beside the positions, or names of polygons: see anic_attribute. */
@@ -235,12 +235,12 @@ enum anic_selection ANIC_INT32 {
 
 /** How frames come from key-frames. */
 enum anic_interpolation ANIC_INT32 {
-  ANIC_INTERPOLATE_USUAL =
-      0, /**< between key-frames that were asked for linear; else best, where a file by
-                                   geometry interpolation is a tenth smaller */
+  /** Between key-frames that were asked for linear; else best, where a file by geometry
+   * interpolation is a tenth smaller. */
+  ANIC_INTERPOLATE_USUAL = 0,
   ANIC_INTERPOLATE_LINEAR = 1, /**< any decoder plays the file */
-  ANIC_INTERPOLATE_MSGI =
-      2, /**< geometry interpolation, which decoders may lack: of key-frames alone */
+  /** Geometry interpolation, which decoders may lack: of key-frames alone. */
+  ANIC_INTERPOLATE_MSGI = 2,
   ANIC_INTERPOLATE_BEST = 3
 };
 

@@ -152,8 +152,8 @@ enum anic_status ANIC_INT32 {
   ANIC_E_SEGMENT = 48, /**< a segment contradicts its counts or its mesh */
   ANIC_E_HASH = 49,
   ANIC_E_MESHES = 50, /**< a continuation of a live stream follows a file with other meshes */
-  ANIC_E_SEGMENT_MISSING =
-      51, /**< a file of a live stream continues one that was lost, or not opened in full */
+  /** A file of a live stream continues one that was lost, or not opened in full. */
+  ANIC_E_SEGMENT_MISSING = 51,
 
   ANIC_E_LIMIT = 60, /**< more than anic_options allow */
 
