@@ -55,8 +55,8 @@ class LiveEncoder {
   EncodeOptions options_;
   Bytes base_;  ///< the file that continuations continue; empty: the next file brings the mesh
   double key_every_;
-  double since_key_ =
-      0;  ///< seconds of the files since the last one that began anew, this included
+  /// Seconds of the files since the last one that began anew, this included.
+  double since_key_ = 0;
   KeptLearning learning_;
 };
 

@@ -21,10 +21,10 @@ namespace anicodec {
 struct LiveOptions {
   double piece = 1;              ///< seconds of a file
   double key_every = kKeyEvery;  ///< see LiveEncoder
-  double box =
-      0;  ///< the diagonal that percentages are of, scene units; 0: that of the first file's frames
-  uint64_t most_waiting =
-      0;  ///< frames that may wait for being encoded, at least those of a file; 0: any number
+  /// The diagonal that percentages are of, scene units; 0: that of the first file's frames.
+  double box = 0;
+  /// Frames that may wait for being encoded, at least those of a file; 0: any number.
+  uint64_t most_waiting = 0;
   size_t threads = 0;  ///< that encode; 0: all of the machine
 };
 
@@ -39,8 +39,8 @@ struct QueuedPiece : LivePiece {
 struct LiveState {
   uint64_t pushed_frames = 0;
   uint64_t waiting_frames = 0;  ///< of these, frames of which no file is made yet
-  uint64_t late_frames =
-      0;  ///< of these, frames of full pieces that the encoder has not begun: 0 while it keeps up
+  /// Frames of these in full pieces that the encoder has not begun: 0 while it keeps up.
+  uint64_t late_frames = 0;
   uint64_t waiting_pieces = 0;  ///< files made, and not taken
   double encode_seconds = 0;    ///< that the last file took
   bool ended = false;           ///< end() was called, and all files are taken

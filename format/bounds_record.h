@@ -27,8 +27,8 @@ inline constexpr uint32_t kFramesOfBox = 64;
 struct BoundsRecord {
   uint32_t every = 0;  ///< frames that share a box, the last box fewer; 0: all share `all`
   Box all = {};
-  Vector<std::array<uint8_t, 6>>
-      boxes;  ///< distances of the low, then of the high sides from those of `all`
+  /// Distances of the low, then of the high sides from those of `all`.
+  Vector<std::array<uint8_t, 6>> boxes;
 
   /// The box of a frame of the segment, at least as large as what it was made from.
   Box of_frame(uint32_t frame) const;

@@ -47,8 +47,8 @@ struct Limits {
     uint32_t attributes = 0;        ///< 0: no chunk ATTR
     uint32_t attribute_labels = 0;  ///< of all attributes of polygons together
     uint32_t attribute_head = 0;  ///< bytes of ATTR that describe the attributes, before the values
-    uint64_t attribute_numbers =
-        0;  ///< values, labels or shared values of all elements of all attributes
+    /// Values, labels or shared values of all elements of all attributes.
+    uint64_t attribute_numbers = 0;
 
     uint32_t elements(AttributeDomain domain) const {
       return domain == AttributeDomain::kCorner    ? corners
@@ -72,8 +72,8 @@ struct Limits {
     uint32_t draco_bytes = 0;      ///< of the Draco bitstream; 0: the key-frames are native
     Reconstruction reconstruction = Reconstruction::kLinear;
     bool exact = false;  ///< the positions of its frames are there bit for bit (ExactRecord)
-    bool learns =
-        false;  ///< what it learns is kept for one that continues it (SegmentRecord::continued)
+    /// Its models are kept for a segment that continues it (SegmentRecord::continued).
+    bool learns = false;
     /// The quantity that it moves: positions, or three components of an attribute, in number from
     /// first_component on, a multiple of three.
     uint32_t attribute = kPositions;

@@ -27,8 +27,8 @@ struct AttributeOptions {
   /// Largest error of attributes that move and have no bound of their own; nothing: half a step of colour_bits for
   /// colours, 0.1 % for others.
   std::optional<AttributeBound> error;
-  std::vector<uint32_t>
-      moving;  ///< numbers of attributes that later frames move, of a live stream, though these may not
+  /// Numbers of attributes that later frames move, of a live stream, though these may not.
+  std::vector<uint32_t> moving;
   bool share = true;  ///< whether elements at one vertex that move alike are coded once
 };
 
@@ -38,12 +38,12 @@ struct StoredAttribute {
   uint32_t number = 0;  ///< and in the file
   AttributeHeader header;
   std::vector<uint32_t> rows;  ///< the source's element of each element in canonical order
-  bool moves =
-      false;  ///< some frame has other values than the first. Normals and tangents follow from positions
+  /// Some frame has other values than the first. Normals and tangents follow from positions.
+  bool moves = false;
   // An attribute that moves has also
   double bound = 0;  ///< the largest error that it may have
-  std::vector<float>
-      rest;  ///< values of the first frame as decoders get them: elements of the source x components
+  /// Values of the first frame as decoders get them: elements of the source x components.
+  std::vector<float> rest;
   Topology surface;  ///< attribute_surface(), in canonical order
 };
 

@@ -78,8 +78,8 @@ struct EncodeOptions {
   /// Features that the search of eigenshapes and eigentrajectories leaves out, by the names of
   /// search_means(): to measure the worth of each.
   std::vector<std::string> without;
-  uint64_t most_bytes =
-      0;  ///< of memory (docs/memory.md): OverMemory where more would be held, fewer threads before; 0: any
+  /// Most bytes of memory (docs/memory.md): OverMemory where more would be held, fewer threads before; 0: any.
+  uint64_t most_bytes = 0;
   /// Searches for the fewest bytes, whatever opening takes; else a millisecond of it, as estimated, is worth
   /// some: bytes_per_nanosecond().
   bool smallest = false;

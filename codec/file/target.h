@@ -17,8 +17,8 @@ namespace anicodec {
 struct Target {
   ErrorMetric metric = ErrorMetric::kNone;
   double value = 0;  ///< KG in per cent, lengths in scene units (or per cent), bytes, or bpfv
-  bool percent =
-      false;  ///< a length is per cent of the diagonal of the box over all frames of a clip
+  /// A length is per cent of the diagonal of the box over all frames of a clip.
+  bool percent = false;
 };
 
 /// The target with lengths in scene units. Throws Error(kUsage) for values that make no sense.

@@ -14,8 +14,8 @@ namespace anicodec {
 
 struct Sted {
   double sted = 0;  ///< sqrt(spatial^2 + c^2 temporal^2), c = 9.144e-5
-  double spatial =
-      0;  ///< local deviation of relative edge length errors, mean over vertices and frames
+  /// Local deviation of relative edge length errors, mean over vertices and frames.
+  double spatial = 0;
   double temporal = 0;  ///< error of the speed of vertices against the local speed, mean likewise
 };
 

@@ -22,8 +22,8 @@ inline constexpr size_t kMostMultiplied = 512;
 struct TimeComponents {
   double base_energy = 0;    ///< squares of what the components are of: the sum of all energies
   Eigen::VectorXd energies;  ///< squared singular values, descending
-  Eigen::MatrixXd
-      time;  ///< a column per component, orthonormal: 3 frames (trajectories) or frames (shapes)
+  /// A column per component, orthonormal: 3 frames (trajectories) or frames (shapes).
+  Eigen::MatrixXd time;
 };
 
 /// Inner products of the coordinates of a clip, as far as principal components need them. Positions are relative

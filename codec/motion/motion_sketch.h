@@ -41,8 +41,8 @@ class MotionSketch : public MotionProducts {
   Eigen::VectorXd sums_;
   double energy_;
   mutable std::mutex mutex_;
-  mutable std::map<Eigen::Index, std::unique_ptr<const Rows>>
-      made_;  ///< by the components they are good for
+  /// By the components they are good for.
+  mutable std::map<Eigen::Index, std::unique_ptr<const Rows>> made_;
 };
 
 }  // namespace anicodec

@@ -19,8 +19,8 @@ struct DecimationOptions {
 
 struct Decimation {
   SurfaceFrame mesh;  ///< triangles
-  std::vector<uint32_t>
-      vertices;  ///< of the mesh given, which are left; a place may be there twice
+  /// Vertices of the mesh given that are left; a place may be there twice.
+  std::vector<uint32_t> vertices;
   MeshRepairs repairs;
 };
 

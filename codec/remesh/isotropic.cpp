@@ -28,8 +28,8 @@ using EdgeHandle = TriMesh::EdgeHandle;
 using HalfedgeHandle = TriMesh::HalfedgeHandle;
 
 constexpr double kLong = 4.0 / 3, kShort = 4.0 / 5;  // of the edge length asked for
-constexpr double kLeastCosine =
-    0.5;                            // cosine between a triangle's normals before and after a change
+// Cosine between a triangle's normals before and after a change.
+constexpr double kLeastCosine = 0.5;
 constexpr double kMostStray = 0.2;  // of a vertex from the triangles in its place, in lengths
 constexpr double kCorner = 0.77;    // cosine of the angle up to which a crease runs on: 40 degrees
 constexpr int kSplitPasses = 24;    // each halves the edges

@@ -20,10 +20,10 @@ struct LinearChoice {
   size_t components_made = 0;      ///< of the basis, at most, that the settings are for
   double aim = 1;    ///< what estimates of the error are to be told, over what they are to meet
   double price = 0;  ///< squared steps of the coefficients that a bit is worth; 0: not known yet
-  double step_factor =
-      0;  ///< by which the step that met the last error was off the one estimated; 0: none did
-  double exponent =
-      0.75;  ///< errors go about as step^exponent; 0.6 to 0.9 on face, dance and horse
+  /// The factor by which the step that met the last error was off the one estimated; 0: none did.
+  double step_factor = 0;
+  /// Errors go about as step^exponent; 0.6 to 0.9 on face, dance and horse.
+  double exponent = 0.75;
   std::vector<const char*> steps;  ///< names of the steps of the search that were kept
 };
 

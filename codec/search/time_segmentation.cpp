@@ -13,10 +13,10 @@ namespace {
 
 constexpr uint32_t kShortest = 8;  // frames of a segment
 constexpr uint32_t kLong = 128;    // frames from which the middle is a candidate
-constexpr uint32_t kMostShared =
-    1500;                        // frames of clips that share a basis: each more is a trial of all
-constexpr double kHardCut = 30;  // times the usual squared motion around it
-constexpr double kChunks = 160;  // bytes a segment costs in tables and records
+// Frames of clips that share a basis: each more is a trial of all.
+constexpr uint32_t kMostShared = 1500;
+constexpr double kHardCut = 30;    // times the usual squared motion around it
+constexpr double kChunks = 160;    // bytes a segment costs in tables and records
 constexpr double kWorthIt = 0.99;  // a cut must save a hundredth
 
 }  // namespace

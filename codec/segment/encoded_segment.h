@@ -43,8 +43,8 @@ struct EncodedSegment {
   std::shared_ptr<const EncodedPose> reference;  ///< of linear bases; segments may share it
   /// The decoded weights and layers, if they were just encoded: opened once without decoding them.
   std::optional<DecodedBasis> decoded;
-  const LearntSegment* continued =
-      nullptr;  ///< what it was coded to go on with, as long as it is opened; may be null
+  /// The state that it was coded to go on with, as long as it is opened; may be null.
+  const LearntSegment* continued = nullptr;
   uint64_t continued_identity = 0;  ///< SegmentRecord::continued
   uint64_t hash = 0;
 

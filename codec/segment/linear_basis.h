@@ -40,11 +40,11 @@ struct LinearBasis {
   Base base = Base::kAffine;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< everything is relative to it
   Eigen::MatrixXd pose;                              ///< vertices x 3
-  double base_energy =
-      0;  ///< squared deviations of the clip from the base: the sum of all energies
+  /// Squared deviations of the clip from the base: the sum of all energies.
+  double base_energy = 0;
   Eigen::VectorXd energies;  ///< squared singular values, descending
-  Eigen::MatrixXd
-      time;  ///< a column per component, orthonormal: 3 frames (trajectories) or frames (shapes)
+  /// A column per component, orthonormal: 3 frames (trajectories) or frames (shapes).
+  Eigen::MatrixXd time;
 
   /// If the surface has regions, each has base and components of its own; energies and time of the
   /// whole are then empty. Else null and empty.

@@ -26,8 +26,8 @@ struct LinearSettings {
   /// bit, instead of one by one at `lambda`.
   double joint_lambda = 0;
   bool refit_weights = false;  ///< code the weights that are best for the decoded coefficients
-  double rank_factor =
-      0.2;  ///< components with less energy per scalar, in squared steps, are left out
+  /// Components with less energy per scalar, in squared steps, are left out.
+  double rank_factor = 0.2;
   /// Exact numbers of components, one for each region; empty: as many as rank_factor says.
   std::vector<size_t> components;
   uint8_t neighbours = 16;

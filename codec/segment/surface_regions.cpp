@@ -21,9 +21,9 @@ using Eigen::MatrixXd;
 
 constexpr size_t kMostFrames = 48;                // looked at
 constexpr size_t kMostNumbers = size_t{1} << 24;  // of the trajectories looked at
-constexpr size_t kSamples =
-    1024;                   // vertices of a region that its trajectories are found by, on average
-constexpr Index kRank = 8;  // of them
+// Vertices of a region that its trajectories are found by, on average.
+constexpr size_t kSamples = 1024;
+constexpr Index kRank = 8;     // trajectories of a region
 constexpr Index kDirect = 64;  // numbers of a trajectory, from which on few axes are cheaper
 constexpr int kRounds = 20, kSmoothings = 3;
 constexpr double kFewestMoves = 0.002;  // of the vertices, in a round that is not the last

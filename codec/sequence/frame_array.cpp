@@ -29,8 +29,8 @@ std::atomic<uint64_t> on_disk{0};
 // Smaller blocks are never counted: they come and go often, and a mapping costs some microseconds.
 constexpr size_t kSmall = size_t{1} << 20;
 
-constexpr uint64_t kShare =
-    3;  // of the memory: an encoder takes about twice the frames beside them
+// Part of the memory: an encoder takes about twice the frames beside them.
+constexpr uint64_t kShare = 3;
 
 std::atomic<uint64_t> frame_limit{half_of_machine() / kShare}, in_memory{0};
 

@@ -125,8 +125,8 @@ struct MeshSequence : MeshDetails {
   FrameArray positions;  ///< frame_count x vertex_count x 3, row-major
   FrameRate rate;
   double start_time = 0;  ///< seconds
-  std::vector<double>
-      times;  ///< frame_count seconds from start_time for uneven sampling, else empty
+  /// `frame_count` seconds from start_time for uneven sampling, else empty.
+  std::vector<double> times;
   UpAxis up = UpAxis::kUnknown;
   double metres_per_unit = 0;     ///< 0: unknown
   Point origin{};                 ///< where positions count from, in the coordinates of the source

@@ -25,8 +25,8 @@ constexpr int kRounds = 150;      // of a descent
 constexpr int kMostDescents = 5;  // while more than kEnough is left
 constexpr double kBound = 0.57;   // see close_fit.h
 constexpr double kGoal = 0.58;    // of the largest, that the weight is for
-constexpr double kEnough =
-    0.6;  // of mean and largest: from here on fewer turned triangles are better
+// Part of mean and largest: from here on fewer turned triangles are better.
+constexpr double kEnough = 0.6;
 constexpr int kHeldRounds = 20;  // in which no triangle may turn, however far off it is
 constexpr double kFirstWeight = 0.1, kWeightGrowth = 1.15;  // in a round
 constexpr double kSharpness = 24;  // of the larger of the two means: a norm of this power

@@ -23,8 +23,8 @@ constexpr int32_t kCoefficientLimit = 1 << 24;
 
 /// The bits that residuals about 0 would take.
 struct ResidualCosts {
-  float magnitude[kRowSymbols] =
-      {};  ///< of |q| = 0 .. 6, the sign left out; of 7 and more, up to there
+  /// Bits of |q| = 0 .. 6, the sign left out; for 7 and more, up to there.
+  float magnitude[kRowSymbols] = {};
   float positive = 0, negative = 0;
 };
 

@@ -22,8 +22,8 @@ struct anic_stream {
   anicodec::ContainerReader file;  ///< the one at hand, with its meshes
   anicodec::KeptMeshes kept;       ///< of the assets that were opened
   anicodec::KeptLearning learning;
-  bool adds_to_meshes =
-      false;               ///< the file at hand is a continuation with chunks of meshes of its own
+  /// The file at hand is a continuation with chunks of meshes of its own.
+  bool adds_to_meshes = false;
   bool has_table = false;  ///< header and table are there
   bool has_limits = false;
   size_t arrived = 0;  ///< chunks, from the front of the table

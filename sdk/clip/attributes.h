@@ -18,8 +18,8 @@ struct MeshAttribute {
   Vector<float> values;     ///< elements x components
   Vector<uint32_t> labels;  ///< of polygons: 0 none, else one more than the number of a label.
                             ///< Without components: elements of one number share a value
-  Topology
-      surface;  ///< of an attribute that moves: attribute_surface(); its triangles go once segments are open
+  /// The attribute_surface() of an attribute that moves; its triangles go once segments are open.
+  Topology surface;
 };
 
 /// Decodes the attributes of a mesh in canonical order. `moving`: for each attribute, one more than

@@ -21,8 +21,8 @@ struct FrameState {
   const Segment::Correction* corrections = nullptr;  ///< ascending by vertex
   uint32_t correction_count = 0;
   uint32_t components = 0;  ///< the first ones of the segment, which are played
-  const float* exact =
-      nullptr;  ///< coded vertices x 3: the positions, whatever else the state says
+  /// Coded vertices x 3: the positions, whatever else the state says.
+  const float* exact = nullptr;
   const float* shape = nullptr;  ///< segments of MSGI: coded vertices x 3, before the motion
 };
 

@@ -14,8 +14,8 @@ namespace anicodec {
 
 /// Frames that one pass over the coefficients makes.
 #if defined(ANICODEC_SMALL)
-inline constexpr uint32_t kMaxPlayedFrames =
-    1;  // kernels for more are as large as all else of playing
+// Kernels for more are as large as all else of playing.
+inline constexpr uint32_t kMaxPlayedFrames = 1;
 #else
 inline constexpr uint32_t kMaxPlayedFrames = 4;
 #endif

@@ -23,8 +23,8 @@ struct LearntSegment {
   BasisKind kind = BasisKind::kEigentrajectories;
   uint64_t order = 0;        ///< hash_of() the order of the vertices
   Vector<float> prediction;  ///< see PredictionLearning
-  Vector<CoefficientModel>
-      coefficients;  ///< one, to be continued with the order of the next segment, or none
+  /// One, to be continued with the order of the next segment, or none.
+  Vector<CoefficientModel> coefficients;
 
   /// Whether a segment of this kind and order can go on from here.
   bool suits(BasisKind wanted, const VertexOrder& wanted_order) const {

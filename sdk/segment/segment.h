@@ -104,8 +104,8 @@ struct Segment {
 
 /// The decoded streams of a linear segment.
 struct DecodedBasis {
-  Vector<int32_t>
-      affine_weights;          ///< regions x functions x 3 x frames; empty: the base keeps still
+  /// Regions x functions x 3 x frames; empty: the base keeps still.
+  Vector<int32_t> affine_weights;
   Vector<int32_t> weights;     ///< components x regions x weight channels x frames
   Vector<uint32_t> order;      ///< coded vertex of each rank
   Vector<float> coefficients;  ///< in steps, by rank: rows of coefficient_stride()
@@ -142,10 +142,10 @@ struct SegmentContext {
   ByteView corrections;     ///< chunk CORR, empty when there is none
   /// The segment's frames cut where a clip ends (Limits::runs()); empty: they are one run.
   Vector<uint32_t> runs;
-  const LearntSegment* continued =
-      nullptr;  ///< what the segment that this one continues has learnt; null: it begins anew
-  LearntSegment* learnt =
-      nullptr;  ///< receives what this one learns, in the memory that it was made in; may be null
+  /// The models of the segment that this one continues; null: it begins anew.
+  const LearntSegment* continued = nullptr;
+  /// Receives what this one learns, in the memory that it was made in; may be null.
+  LearntSegment* learnt = nullptr;
   double quality = 1;  ///< share of the components wanted
   /// Layers or corrections are still to come: as many components as are there are opened.
   bool partial = false;

@@ -27,8 +27,8 @@ struct EncodeArguments : EncodeChoices {
   double piece = 1;              ///< of a live stream, seconds
   double key_every = kKeyEvery;  ///< the same
   std::string box;               ///< of a live stream: the diagonal that percentages are of
-  std::vector<std::string>
-      given;  ///< "--option=value" for all that an output depends on beside its clip
+  /// "--option=value" for all that an output depends on beside its clip.
+  std::vector<std::string> given;
   bool allow_outside = false;
   bool no_weld = false;
   std::string origin;  ///< "auto", "none" or "X,Y,Z"; empty: auto

@@ -22,8 +22,8 @@ namespace anicodec::ogre {
 struct ClipMesh {
   anic::RenderPlan plan;
   anic_render_info info = {};
-  std::vector<Ogre::ColourValue>
-      colours;  ///< of each group: what the file says of its material, else white
+  /// For each group, the colour that the file gives its material, else white.
+  std::vector<Ogre::ColourValue> colours;
   std::vector<Ogre::String> materials;  ///< of each group; may be empty
   Ogre::HardwareIndexBufferSharedPtr indices;
   Ogre::HardwareVertexBufferSharedPtr uvs;  ///< two floats of uv, and the vertex of the file

@@ -85,8 +85,8 @@ struct FileFormat {
 
   bool is_soup = false;        ///< a mesh of corners alone, without vertices
   bool counts_frames = false;  ///< a cache that counts frames of a rate which it does not carry
-  bool carries_clip =
-      false;  ///< a scene with room for an encoded clip, images, and several animations
+  /// A scene with room for an encoded clip, images, and several animations.
+  bool carries_clip = false;
   bool frames_have_y_up = false;     ///< readers of a file per frame expect that
   bool has_room_for_origin = false;  ///< positions are written with the local origin of the clip
   bool text_has_room_for_origin = false;  ///< the same of files as text

@@ -156,8 +156,8 @@ class MtlParser {
   PolygonLabels& materials_;
   LeftKinds& left_out_;
   std::map<std::string, size_t> numbers_;
-  MaterialLook* look_ =
-      nullptr;  ///< of the material that is described; null: of none of those asked for
+  /// The material that is described; null: none of those asked for.
+  MaterialLook* look_ = nullptr;
   bool has_roughness_ = false;  ///< told by itself, not only by the exponent
   bool has_metallic_ = false, reflects_ = false;
   float ambient_[3] = {};
