@@ -82,7 +82,8 @@ double EncodingMemory::thread(const EncodeOptions& options) const {
 
 double EncodingMemory::regions(double count, double trajectories) const {
   constexpr double kOfFrame = 4 * 24, kOfPair = 4 * 8;
-  return positions() + trajectories * (kOfFrame * frames + count * kOfPair * trajectories);
+  return positions() + sketch(vertices, trajectories) +
+         trajectories * (kOfFrame * frames + count * kOfPair * trajectories);
 }
 
 double EncodingMemory::basis(BasisKind kind, double components, Effort effort,

@@ -5,7 +5,6 @@
 #include "codec/parallel/parallel.h"
 #include "codec/parallel/thread_count.h"
 #include "codec/search/opening_time.h"
-#include "codec/sequence/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,16 +21,10 @@ constexpr double kRateSlope = 0.5;  // the size goes about as error^-kRateSlope
 constexpr double kNear = 0.04;      // of the error asked for: sizes can be compared
 // Relative doubt of a size from one trial: with 0.01, quad_box at --kg 0.1 grew by more effort.
 constexpr double kDoubt = 0.03;
-constexpr size_t kMostComponents = 2000;
-// Files of dance, horse, chicken, flag and face at --kg 0.1 vary by less than 0.2 % with 4 to 32.
-constexpr double kPoseStepsOfOctave = 8;
 constexpr size_t kFirstComponents = 48;  // found at first; twice as many whenever all are of use
 constexpr size_t kFewComponents = 16;    // of regions: steps of what is found at first
 // The part of the whole's components is regions^this or less: on chicken, dance, horse and flag 0.5 to 0.7 in 2 and 4, 0.3 to 0.7 in 8.
 constexpr double kComponentsOfRegions = -0.3;
-// Trajectories of the space that components of regions are found in, for each component of the whole. `encode --kg 0.1` of
-// dance, chicken, horse, flag and face with 2 to 6 and with all trajectories: below 3 files grow.
-constexpr double kSpaceOfRegions = 3;
 constexpr size_t kRichComponents = 24;   // of clips whose surface is
 constexpr size_t kFewestVertices = 200;  // of a region, on average
 // Ratios to the bytes of the whole. By expectation, which ranks cuts badly, all below are tried;
@@ -64,12 +57,6 @@ constexpr size_t kMostApproaches = 2;  // of all but the best effort
 constexpr size_t kFewSteps = 4;        // before kinds are compared for the first time
 constexpr size_t kMostFailures = 5;  // steps in a row that do not help end the search, but the best
 
-/// The step of the pose on a grid, so that trials of nearly the same steps share a coded pose.
-double shared_pose_step(const LinearSettings& settings, size_t frames) {
-  return std::exp2(std::round(std::log2(pose_step(settings, frames)) * kPoseStepsOfOctave) /
-                   kPoseStepsOfOctave);
-}
-
 size_t most_components(const LinearSettings& settings) {
   return settings.components.empty() ? 0 : std::ranges::max(settings.components);
 }
@@ -91,7 +78,7 @@ LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analys
       runs_(input.runs(first_frame, static_cast<uint32_t>(analysis.clip().frame_count))),
       kind_(kind),
       effort_(effort),
-      bases_(std::make_unique<Bases>()) {
+      bases_(std::make_unique<LinearBases>(input, analysis, kind, effort, smallest)) {
   const bool shapes = kind == BasisKind::kEigenshapes;
   choice_.pose = shapes ? ReferencePose::kMean : ReferencePose::kRankThree;
   choice_.base = shapes ? Base::kPose : Base::kAffine;
@@ -113,104 +100,10 @@ LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analys
 }
 
 void LinearCoder::share_pose(std::shared_ptr<const EncodedPose> pose) {
-  pose_ = std::move(pose);
-  const PoseGrid& grid = pose_->grid;
-  given_pose_.resize(static_cast<Eigen::Index>(grid.points.size() / 3), 3);
-  for (Eigen::Index i = 0; i < given_pose_.size(); ++i)
-    given_pose_(i / 3, i % 3) = grid.points[static_cast<size_t>(i)] * grid.step;
+  bases_->share_pose(std::move(pose));
   choice_.pose = ReferencePose::kGiven;
   choice_.base = Base::kAffine;
-  bases_->made.clear();
   chosen_ = true;
-}
-
-LinearCoder::MadeBasis& LinearCoder::made_basis(const LinearChoice& choice, size_t wanted) {
-  const size_t most = std::min(wanted, kMostComponents);
-  const std::scoped_lock lock(bases_->mutex);
-  const std::tuple key{choice.pose, choice.base, choice.regions, most};
-  auto found = bases_->made.find(key);
-  if (found == bases_->made.end()) {
-    LinearBasis basis;
-    // A thread that waits for others here must not take a task that waits for the lock.
-    isolated([&] {
-      basis = choice.regions == 1
-                  ? analysis_.basis(kind_, choice.pose, choice.base, most, 0, given())
-                  : analysis_of(choice.regions).basis(analysis_, choice.pose, most, given());
-    });
-    const auto components = static_cast<double>(basis.most_components());
-    MemoryShare memory = input_.take_memory(
-        analysis_.clip().frame_count, "a basis of the components that the error takes",
-        [&](const EncodingMemory& m) {
-          return m.basis(kind_, components, effort_, choice.regions);
-        });
-    found = bases_->made.try_emplace(key).first;
-    found->second.memory = std::move(memory);
-    found->second.basis = std::move(basis);
-  }
-  return found->second;
-}
-
-/// The pose that the file has, or that of a basis with the step of the settings.
-std::shared_ptr<const EncodedPose> LinearCoder::coded_pose(MadeBasis& made,
-                                                           const LinearSettings& settings) {
-  if (pose_)
-    return pose_;
-  const double step = shared_pose_step(settings, analysis_.clip().frame_count);
-  {
-    const std::scoped_lock lock(made.mutex);
-    // Isolated: a thread that waits for others in it must not take a task that waits for the lock.
-    if (!made.pose)
-      isolated([&] {
-        made.pose.emplace(made.basis.pose, made.basis.origin, input_.layout,
-                          bytes_per_nanosecond(smallest_));
-      });
-    if (const auto found = made.poses.find(step); found != made.poses.end())
-      return found->second;
-  }
-  std::shared_ptr<const EncodedPose> pose = made.pose->at_step(step);
-  const std::scoped_lock lock(made.mutex);
-  return made.poses.try_emplace(step, std::move(pose)).first->second;
-}
-
-void LinearCoder::reserve(uint32_t regions) {
-  Regions& cut = regions_[regions];
-  if (!cut.memory)
-    cut.memory =
-        input_.take_memory(analysis_.clip().frame_count, "the motion of regions of the surface",
-                           [&](const EncodingMemory& m) {
-                             return m.regions(regions, kSpaceOfRegions * components_of_whole());
-                           });
-}
-
-double LinearCoder::components_of_whole() const {
-  return choice_.components_of_whole > 0 ? choice_.components_of_whole
-                                         : static_cast<double>(most_components(choice_.settings));
-}
-
-const std::shared_ptr<const Eigen::MatrixXd>& LinearCoder::space() {
-  if (!space_) {
-    const double count = kSpaceOfRegions * components_of_whole();
-    space_ = std::make_shared<const Eigen::MatrixXd>(
-        analysis_.space_of_trajectories(static_cast<size_t>(count)));
-  }
-  return space_;
-}
-
-const RegionAnalysis& LinearCoder::analysis_of(uint32_t regions) {
-  reserve(regions);
-  Regions& cut = regions_[regions];
-  if (cut.of_vertex.empty()) {
-    const Vector<uint32_t>& triangles = input_.layout.topology.triangles;
-    MeshGraph graph;
-    if (graph.init(triangles.data(), triangles.size() / 3, analysis_.clip().vertex_count) !=
-        Status::kOk)
-      throw Error(ErrorKind::kInternal, "the edges of the mesh cannot be found");
-    cut.of_vertex = find_regions(analysis_.clip(), graph, regions);
-  }
-  if (!cut.analysis)
-    cut.analysis = std::make_unique<RegionAnalysis>(
-        std::make_shared<const RegionClips>(analysis_.clip(), cut.of_vertex, regions), space());
-  return *cut.analysis;
 }
 
 /// The choice with a step and a number of components that should meet the error.
@@ -223,9 +116,9 @@ LinearChoice LinearCoder::started(LinearChoice choice, double rmse) {
   }
   for (size_t wanted = first;; wanted *= 2) {
     choice.components_made = wanted;
-    const LinearBasis& b = basis(choice, wanted);
+    const LinearBasis& b = bases_->basis(choice);
     set_step(b, rmse, choice.settings);
-    if (wanted >= kMostComponents || b.most_components() < wanted ||
+    if (wanted >= LinearBases::kMostComponents || b.most_components() < wanted ||
         most_components(choice.settings) < wanted)
       return choice;
   }
@@ -278,10 +171,9 @@ std::vector<LinearCoder::Measured> LinearCoder::measured(const std::vector<Linea
 
 LinearCoder::Measured LinearCoder::trial(const LinearChoice& choice, double rmse) {
   Measured m;
-  MadeBasis& made = made_basis(choice, choice.components_made);
-  std::optional<EncodedSegment> encoded =
-      encode_linear(analysis_.clip(), made.basis, choice.settings, input_.layout,
-                    coded_pose(made, choice.settings), runs_, pose_ ? input_.learning : Learning());
+  std::optional<EncodedSegment> encoded = encode_linear(
+      analysis_.clip(), bases_->basis(choice), choice.settings, input_.layout,
+      bases_->coded_pose(choice), runs_, bases_->shared_pose() ? input_.learning : Learning());
   if (!encoded) {
     m.rmse = m.bytes = std::numeric_limits<double>::infinity();
     return m;
@@ -363,8 +255,8 @@ void LinearCoder::open_like(const LinearCoder& other) {
 }
 
 bool LinearCoder::tries_regions() const {
-  return !pose_ && effort_ > Effort::kFast && kind_ == BasisKind::kEigentrajectories &&
-         input_.allows(kRegionsMean);
+  return !bases_->shared_pose() && effort_ > Effort::kFast &&
+         kind_ == BasisKind::kEigentrajectories && input_.allows(kRegionsMean);
 }
 
 LinearCoder::Probed LinearCoder::probed(const Measured& trial, double rmse) {
@@ -382,7 +274,7 @@ LinearCoder::Probed LinearCoder::probed(const Measured& trial, double rmse) {
 /// of the whole: coefficients of a region are fewer and dearer, for they have more of the motion.
 double LinearCoder::expected_bytes(const LinearChoice& choice) {
   constexpr double kOfWeight = 0.9, kOfCoefficient = 1.5;  // measured on pcow, crane, jumping
-  const LinearBasis& b = basis(choice, choice.components_made);
+  const LinearBasis& b = bases_->basis(choice);
   const auto whole = static_cast<double>(most_components(choice_.settings));
   double weights = 0, coefficients = 0;
   for (size_t r = 0; r < choice.settings.components.size(); ++r) {
@@ -401,34 +293,27 @@ void LinearCoder::try_regions(double rmse) {
     return;
   tried_regions_ = true;
   const double whole = probed_.weights + probed_.coefficients;
-  std::vector<LinearChoice> cuts;
-  std::vector<uint32_t> counts;
+  std::vector<LinearChoice> possible, cuts;
   for (uint32_t regions : {2U, 4U, 8U}) {
     if (analysis_.clip().vertex_count < size_t{regions} * kFewestVertices)
       continue;
+    LinearChoice cut = choice_;
+    cut.regions = regions;
+    cut.components_of_whole = static_cast<double>(most_components(choice_.settings));
+    cut.aim *= std::pow(regions, kAimOfRegions);
     try {
-      reserve(regions);
-      counts.push_back(regions);
+      bases_->reserve(cut);
+      possible.push_back(std::move(cut));
     } catch (const OverMemory&) {  // fewer regions may do, and one does
     }
   }
-  if (counts.empty())
-    return;
-  space();
-  parallel_tasks(counts.size(), [&](size_t i) {
-    input_.begin(SearchStep::kAnalysis);
-    analysis_of(counts[i]);
-  });
-  for (const uint32_t regions : counts) {
-    LinearChoice cut = choice_;
-    cut.regions = regions;
-    cut.components_of_whole = components_of_whole();
-    cut.aim *= std::pow(regions, kAimOfRegions);
+  bases_->analyse(possible);
+  for (const LinearChoice& cut : possible) {
     input_.begin(SearchStep::kAnalysis);
     try {
-      cut = started(cut, rmse);
-      if (expected_bytes(cut) < kWorthTrying * whole)
-        cuts.push_back(std::move(cut));
+      LinearChoice begun = started(cut, rmse);
+      if (expected_bytes(begun) < kWorthTrying * whole)
+        cuts.push_back(std::move(begun));
     } catch (const OverMemory&) {  // of its bases
     }
   }
@@ -661,7 +546,7 @@ std::optional<CodedPart> LinearCoder::reached(Approach& approach) {
 
 /// The bytes that the part takes in the file, and the price of its opening.
 double LinearCoder::bytes(const CodedPart& part) const {
-  const size_t pose = pose_ ? 0 : part.encoded.reference->stream.size();
+  const size_t pose = bases_->shared_pose() ? 0 : part.encoded.reference->stream.size();
   return static_cast<double>(part.encoded.bytes() + pose) + part.opening;
 }
 

@@ -5,20 +5,17 @@
 
 #include "codec/search/bound_search.h"
 #include "codec/search/encoder_input.h"
+#include "codec/search/linear_bases.h"
 #include "codec/search/linear_choice.h"
 #include "codec/search/linear_steps.h"
 #include "codec/search/segment_coder.h"
 #include "codec/segment/linear_basis.h"
 #include "codec/segment/linear_segment_encode.h"
-#include "codec/segment/reference_pose_encode.h"
 
 #include <limits>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -69,7 +66,7 @@ class LinearCoder : public SegmentCoder {
     choice_.regions = other.choice_.regions;
     choice_.components_of_whole = other.choice_.components_of_whole;
     if (choice_.regions > 1)
-      regions_[choice_.regions].of_vertex = other.regions_.at(choice_.regions).of_vertex;
+      bases_->cut_like(*other.bases_, choice_.regions);
     choice_.steps = other.choice_.steps;
     choice_.aim = other.choice_.aim;
     choice_.price = other.choice_.price;
@@ -127,47 +124,8 @@ class LinearCoder : public SegmentCoder {
     bool ended = false;
   };
 
-  /// A cut of the surface, and the analysis of this clip by it.
-  struct Regions {
-    Vector<uint8_t> of_vertex;
-    std::optional<MemoryShare> memory;
-    std::unique_ptr<RegionAnalysis> analysis;  ///< made when needed
-  };
-
-  struct MadeBasis {
-    MemoryShare memory;
-    LinearBasis basis;
-    // No std::once_flag: glibc ends the process where a function of one throws and there is no memory to unwind.
-    std::mutex mutex;                                            ///< of both poses
-    std::optional<ReferencePoseEncoder> pose;                    ///< of the basis
-    std::map<double, std::shared_ptr<const EncodedPose>> poses;  ///< by their step
-  };
-
-  /// By pose, base, regions and the most components that one of them has.
-  struct Bases {
-    std::mutex mutex;
-    std::map<std::tuple<ReferencePose, Base, uint32_t, size_t>, MadeBasis> made;
-  };
-
-  /// A basis with `wanted` components in each region, or as many as there are.
-  const LinearBasis& basis(const LinearChoice& choice, size_t wanted) {
-    return made_basis(choice, wanted).basis;
-  }
-
-  MadeBasis& made_basis(const LinearChoice& choice, size_t wanted);
-  std::shared_ptr<const EncodedPose> coded_pose(MadeBasis& made, const LinearSettings& settings);
-  /// Takes the memory that so many regions need. Throws OverMemory.
-  void reserve(uint32_t regions);
-  /// Components that the clip takes without regions, about.
-  double components_of_whole() const;
-  /// The space of trajectories that components of regions are found in. Made when first asked for.
-  const std::shared_ptr<const Eigen::MatrixXd>& space();
-  const RegionAnalysis& analysis_of(uint32_t regions);
   void try_regions(double rmse);
   double expected_bytes(const LinearChoice& choice);
-
-  /// A pose chosen elsewhere; null: none.
-  const Eigen::MatrixXd* given() const { return pose_ ? &given_pose_ : nullptr; }
 
   static Probed probed(const Measured& trial, double rmse);
   LinearChoice started(LinearChoice choice, double rmse);
@@ -204,11 +162,7 @@ class LinearCoder : public SegmentCoder {
   std::vector<Approach> approaches_;  ///< of the error asked for, prepared
   double asked_ = 0, most_bytes_ = kNoLimit;
   bool chosen_ = false;
-  std::shared_ptr<const EncodedPose> pose_;
-  Eigen::MatrixXd given_pose_;
-  std::unique_ptr<Bases> bases_;
-  std::map<uint32_t, Regions> regions_;  ///< by their number
-  std::shared_ptr<const Eigen::MatrixXd> space_;
+  std::unique_ptr<LinearBases> bases_;
 };
 
 }  // namespace anicodec
