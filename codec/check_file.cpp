@@ -104,38 +104,49 @@ void copy_rows(const float* from, const std::vector<uint32_t>& rows, std::vector
     std::copy_n(from + size_t{3} * rows[v], 3, to->data() + 3 * v);
 }
 
-/// In the source's vertex order whatever the file's.
-Comparison compare_positions(PlayedFile* file, const EncoderInput& input, const FrameRun& run) {
-  const std::vector<uint32_t> played_of = played_vertices(*file, input.layout);
-  const uint32_t vertices = input.sequence.vertex_count;
-  std::vector<float> original, decoded, played(size_t{3} * vertices);
+/// Positions of the source and of the file, in the source's vertex order whatever the file's.
+class BothPositions {
+ public:
+  BothPositions(PlayedFile* file, const EncoderInput& input)
+      : file_(file),
+        input_(input),
+        played_of_(played_vertices(*file, input.layout)),
+        played_(size_t{3} * input.sequence.vertex_count) {}
+
+  /// Valid until the next call.
+  std::span<const float> original(uint32_t frame) {
+    copy_rows(input_.shown().frame(frame), input_.layout.source_coded, &original_);
+    return original_;
+  }
+
+  std::span<const float> decoded(uint32_t frame) {
+    file_->seek(frame);
+    file_->positions(0, &played_);
+    copy_rows(played_.data(), played_of_, &decoded_);
+    return decoded_;
+  }
+
+ private:
+  PlayedFile* file_;
+  const EncoderInput& input_;
+  std::vector<uint32_t> played_of_;
+  std::vector<float> played_, original_, decoded_;
+};
+
+Comparison compare_positions(BothPositions* both, const EncoderInput& input, const FrameRun& run) {
   CompareOptions options;
   options.sted = false;
   return compare(
-      input.sequence.polygons, vertices, run.count,
-      [&](uint32_t f) -> std::span<const float> {
-        copy_rows(input.shown().frame(run.first + f), input.layout.source_coded, &original);
-        return original;
-      },
-      [&](uint32_t f) -> std::span<const float> {
-        file->seek(run.first + f);
-        file->positions(0, &played);
-        copy_rows(played.data(), played_of, &decoded);
-        return decoded;
-      },
-      options);
+      input.sequence.polygons, input.sequence.vertex_count, run.count,
+      [&](uint32_t f) { return both->original(run.first + f); },
+      [&](uint32_t f) { return both->decoded(run.first + f); }, options);
 }
 
 /// Whether a clip without error has the bits of the source, too: zeros with their signs.
-bool has_all_bits(PlayedFile* file, const EncoderInput& input, const FrameRun& run) {
-  const std::vector<uint32_t> played_of = played_vertices(*file, input.layout);
-  std::vector<float> original, decoded, played(size_t{3} * input.sequence.vertex_count);
+bool has_all_bits(BothPositions* both, const FrameRun& run) {
   for (uint32_t f = run.first; f < run.first + run.count; ++f) {
-    copy_rows(input.shown().frame(f), input.layout.source_coded, &original);
-    file->seek(f);
-    file->positions(0, &played);
-    copy_rows(played.data(), played_of, &decoded);
-    if (std::memcmp(original.data(), decoded.data(), original.size() * sizeof(float)) != 0)
+    const std::span<const float> original = both->original(f);
+    if (std::memcmp(original.data(), both->decoded(f).data(), original.size_bytes()) != 0)
       return false;
   }
   return true;
@@ -234,11 +245,11 @@ CheckedFile check_file(const Bytes& bytes, const EncoderInput& input,
   for (const AttributeResult& result : *attributes)
     moving.push_back(&*std::ranges::find(stored, result.number, &StoredAttribute::number));
   CheckedFile checked;
-  std::vector<MeasuredClip>& clips = checked.clips;
+  BothPositions both(&file, input);
   for (const InputClip& source : input.clips) {
-    MeasuredClip& measured = clips.emplace_back();
-    measured.positions = compare_positions(&file, input, source.frames);
-    if (is_lossless && !has_all_bits(&file, input, source.frames))
+    MeasuredClip& measured = checked.clips.emplace_back();
+    measured.positions = compare_positions(&both, input, source.frames);
+    if (is_lossless && !has_all_bits(&both, source.frames))
       throw Error(ErrorKind::kInternal, "the encoded file does not have the source's positions");
     const double share = static_cast<double>(source.frames.count) / file.info().frame_count;
     const std::vector<AttributeError> errors =
