@@ -32,6 +32,18 @@ enum class AttributeDomain : uint8_t { kVertex = 0, kCorner = 1, kPolygon = 2 };
 
 enum class BasisKind : uint8_t { kKeyframes = 0, kEigenshapes = 1, kEigentrajectories = 2 };
 
+/// What a component of each kind has: a vector at each vertex with one weight in a frame, or a number with three.
+struct BasisTraits {
+  uint32_t channels;         ///< numbers at a vertex
+  uint32_t weight_channels;  ///< in a frame
+};
+
+inline constexpr BasisTraits kBasisTraits[] = {{3, 1}, {3, 1}, {1, 3}};
+
+constexpr const BasisTraits& traits_of(BasisKind kind) {
+  return kBasisTraits[static_cast<uint8_t>(kind)];
+}
+
 /// How a frame is made from key-frames: on straight lines, or by multi-scale geometry
 /// interpolation.
 enum class Reconstruction : uint8_t { kLinear = 0, kMsgi = 1 };

@@ -128,7 +128,6 @@ LinearChoice LinearCoder::started(LinearChoice choice, double rmse) {
 void LinearCoder::set_step(const LinearBasis& b, double rmse, LinearSettings& settings) const {
   const FrameView clip = analysis_.clip();
   const double budget = rmse * rmse * static_cast<double>(clip.vertex_count * clip.frame_count);
-  const bool shapes = kind_ == BasisKind::kEigenshapes;
   // Bisection: the error of rounding and of what is left out grows with the step.
   // Without components the step is that of the pose, tied to the number of frames.
   double low = rmse * 1e-6;
@@ -142,7 +141,7 @@ void LinearCoder::set_step(const LinearBasis& b, double rmse, LinearSettings& se
       const LinearBasis& of_region = b.regions.empty() ? b : b.regions[r];
       const size_t k = settings.components[r];
       unexplained -= of_region.energies.head(static_cast<Eigen::Index>(k)).sum();
-      coefficients += static_cast<double>(k * vertices_of(b, r) * (shapes ? 3 : 1));
+      coefficients += static_cast<double>(k * vertices_of(b, r) * traits_of(kind_).channels);
     }
     const double error =
         std::max(unexplained, 0.0) + 0.12 * coefficients * settings.step * settings.step;

@@ -15,7 +15,7 @@ constexpr double kOfWeight = 110, kOfCoefficient = 1.4, kOfBit = 25;
 
 double opening_nanoseconds(const LinearSettings& settings, const EncodedSegment& encoded,
                            size_t vertices) {
-  const double channels = encoded.sizes.kind == BasisKind::kEigenshapes ? 3 : 1;
+  const double channels = traits_of(encoded.sizes.kind).channels;
   const double components = encoded.sizes.components, n = static_cast<double>(vertices);
   const double bits = 8.0 * static_cast<double>(encoded.coefficient_bytes);
   const double reading = kOfWeight * static_cast<double>(encoded.time_weights) +

@@ -76,7 +76,7 @@ Coefficients BasisFit::targets(double step) const {
   const MatrixXd solved =  // rows of the clip x k
       solve_symmetric(normal, MatrixXd(u.transpose())).transpose();
   bool shapes = basis_.kind == BasisKind::kEigenshapes;
-  Index channels = shapes ? 3 : 1;
+  Index channels = traits_of(basis_.kind).channels;
   Coefficients y(static_cast<Index>(clip_.vertex_count), k * channels);
   // The base's share of each component: per axis and function, or the pose times a sum.
   MatrixXd base(Index{kAffineFunctions}, k * channels);

@@ -88,11 +88,7 @@ class LinearEncoder {
  public:
   LinearEncoder(const FrameView& clip, const LinearBasis& basis, const LinearSettings& settings,
                 const MeshLayout& layout, const Vector<uint32_t>& runs, const Learning& learning)
-      : clip_(clip),
-        basis_(basis),
-        settings_(settings),
-        layout_(layout),
-        shapes_(basis.kind == BasisKind::kEigenshapes) {
+      : clip_(clip), basis_(basis), settings_(settings), layout_(layout) {
     const std::vector<size_t> counts =
         component_counts(basis, settings, clip.vertex_count, clip.frame_count);
     count_ = *std::ranges::max_element(counts);
@@ -153,7 +149,7 @@ class LinearEncoder {
       encoded_.continued_identity = encoded_.continued->identity;
     if (count_ > 0) {
       CoefficientEncoder coefficients(settings_, std::move(order), pose(), std::move(target),
-                                      shapes_ ? 3 : 1, encoded_.continued);
+                                      traits_of(basis_.kind).channels, encoded_.continued);
       if (!code_layers(coefficients))
         return std::nullopt;
       if (settings_.refit_weights)
@@ -176,7 +172,7 @@ class LinearEncoder {
   /// Null: all vertices are of one region.
   const uint8_t* regions() const { return basis_.clips ? basis_.clips->regions().data() : nullptr; }
 
-  uint32_t weight_channels() const { return shapes_ ? 1 : 3; }
+  uint32_t weight_channels() const { return traits_of(basis_.kind).weight_channels; }
 
   const LinearBasis& basis_of(size_t region) const {
     return basis_.regions.empty() ? basis_ : basis_.regions[region];
@@ -336,7 +332,6 @@ class LinearEncoder {
   const LinearBasis& basis_;
   const LinearSettings& settings_;
   const MeshLayout& layout_;
-  bool shapes_;
   size_t count_ = 0;            ///< of components, most of any region
   std::vector<BasisFit> fits_;  ///< of the regions, or of the whole
   LinearParameters parameters_;
@@ -350,7 +345,7 @@ class LinearEncoder {
 
 std::vector<size_t> component_counts(const LinearBasis& basis, const LinearSettings& settings,
                                      size_t vertices, size_t frames) {
-  const bool shapes = basis.kind == BasisKind::kEigenshapes;
+  const BasisTraits traits = traits_of(basis.kind);
   std::vector<size_t> counts;
   const auto count = [&](const LinearBasis& of_region, size_t vertex_count) {
     const auto most = static_cast<size_t>(of_region.energies.size());
@@ -358,7 +353,7 @@ std::vector<size_t> component_counts(const LinearBasis& basis, const LinearSetti
       return std::min(settings.components[std::min(counts.size(), settings.components.size() - 1)],
                       most);
     const auto scalars =
-        static_cast<double>(shapes ? 3 * vertex_count + frames : vertex_count + 3 * frames);
+        static_cast<double>(traits.channels * vertex_count + traits.weight_channels * frames);
     const double smallest = settings.rank_factor * scalars * settings.step * settings.step;
     return static_cast<size_t>((of_region.energies.array() > smallest).count());
   };

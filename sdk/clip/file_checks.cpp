@@ -159,9 +159,10 @@ Failure read_limits(const ContainerReader& file, const OpenOptions& options, Lim
     const Limits::Mesh mesh = s.coded_over(out->meshes[s.mesh]);
     if (s.components > options.limits.components)
       return failure_in(*chunk, Status::kLimit, "more components than allowed");
-    uint64_t channels = s.kind == BasisKind::kEigentrajectories ? 1 : 3;
-    uint64_t coefficients = channels * s.components * mesh.coded_vertices;
-    uint64_t weights = uint64_t{4} * s.regions * s.frames * s.components * (channels == 1 ? 3 : 1);
+    const BasisTraits traits = traits_of(s.kind);
+    const uint64_t coefficients = uint64_t{traits.channels} * s.components * mesh.coded_vertices;
+    const uint64_t weights =
+        uint64_t{4} * s.regions * s.frames * s.components * traits.weight_channels;
     if (coefficients > plausible * 64 || weights > plausible * 64)
       return failure_in(*chunk, Status::kLimit, "counts that no file of this size can hold");
     if (s.draco_bytes > file.file_size() || s.draco_points / 3 > mesh.triangles)

@@ -162,7 +162,7 @@ uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
            (s.draco_bytes > 0 ? draco(s, mesh) : predicting(mesh));
   // Residuals lie in the resident arrays. Making the order of the vertices takes most for each of
   // them, predicting for each coefficient.
-  const uint64_t channels = s.kind == BasisKind::kEigenshapes ? 3 : 1;
+  const uint64_t channels = traits_of(s.kind).channels;
   const uint64_t ordering = (4 * kNeighbours + 272) * n + uint64_t{48} * mesh.triangles;
   const uint64_t predicting =
       4 * channels * (n + 1) * (components + 8) + (4 * kNeighbours + 24) * n;

@@ -32,7 +32,7 @@ SampleSize segment_size(const Limits::Segment& s, const Limits::Mesh& mesh, doub
   size.segments = 1;
   size.weights =
       s.regions * (uint64_t{keyframes ? s.components : wanted_components(quality, s.components)} *
-                       (s.kind == BasisKind::kEigentrajectories ? 3 : 1) +
+                       traits_of(s.kind).weight_channels +
                    (keyframes ? 0 : 12));
   if (s.reconstruction == Reconstruction::kMsgi) {
     size.shapes = 1;

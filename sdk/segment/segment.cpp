@@ -94,8 +94,8 @@ double segment_work(const Limits::Segment& segment, const Limits::Mesh& mesh, do
   const bool keyframes = segment.kind == BasisKind::kKeyframes;
   const uint32_t components =
       keyframes ? segment.components : wanted_components(quality, segment.components);
-  const double coefficients = static_cast<double>(mesh.coded_vertices) * components *
-                              (segment.kind == BasisKind::kEigentrajectories ? 1 : 3);
+  const double coefficients =
+      static_cast<double>(mesh.coded_vertices) * components * traits_of(segment.kind).channels;
   return keyframes ? coefficients : 2 * coefficients;  // read, then predicted
 }
 

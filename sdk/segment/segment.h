@@ -55,9 +55,9 @@ struct Segment {
 
   /// Scalars per vertex of a component: 3 (a vector; one weight per frame) or, for trajectories, 1
   /// (and three weights per frame).
-  uint32_t channels() const { return kind == BasisKind::kEigentrajectories ? 1 : 3; }
+  uint32_t channels() const { return traits_of(kind).channels; }
 
-  uint32_t weight_channels() const { return channels() == 1 ? 3 : 1; }
+  uint32_t weight_channels() const { return traits_of(kind).weight_channels; }
 
   Vector<float> pose;      ///< blocks x 3 x 16, empty when there is none
   Vector<int32_t> wide;    ///< blocks x wide_components x channels x 16
