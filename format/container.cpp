@@ -3,6 +3,7 @@
 #include "format/container.h"
 
 #include "format/checksum.h"
+#include "format/chunk_kinds.h"
 #include "format/sort.h"
 
 #include <algorithm>
@@ -68,11 +69,12 @@ void ContainerWriter::add(const char (&type)[5], bool required, uint16_t mesh, u
   add(chunk, mesh, segment, std::move(payload));
 }
 
-void ContainerWriter::add_copied(const char (&type)[5], uint16_t mesh, uint32_t segment,
-                                 Bytes payload) {
+void ContainerWriter::add(const char (&type)[5], uint16_t mesh, uint32_t segment, Bytes payload) {
+  const ChunkKind* kind = find_chunk_kind(chunk_type(type));
   Chunk chunk;
   chunk.type = chunk_type(type);
-  chunk.copied = true;
+  chunk.required = kind && kind->required;
+  chunk.copied = kind && kind->copied;
   add(chunk, mesh, segment, std::move(payload));
 }
 

@@ -70,8 +70,8 @@ class ContainerWriter {
  public:
   void add(const char (&type)[5], bool required, uint16_t mesh, uint32_t segment, Bytes payload);
 
-  /// A chunk that is not required, and that editors keep.
-  void add_copied(const char (&type)[5], uint16_t mesh, uint32_t segment, Bytes payload);
+  /// A chunk that this version knows (chunk_kinds.h), marked as all of its kind.
+  void add(const char (&type)[5], uint16_t mesh, uint32_t segment, Bytes payload);
 
   /// A chunk of another file, of this mesh and segment in this one.
   void add(const Chunk& chunk, uint16_t mesh, uint32_t segment, Bytes payload);

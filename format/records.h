@@ -32,7 +32,7 @@ enum class AttributeDomain : uint8_t { kVertex = 0, kCorner = 1, kPolygon = 2 };
 
 enum class BasisKind : uint8_t { kKeyframes = 0, kEigenshapes = 1, kEigentrajectories = 2 };
 
-/// What a component of each kind has: a vector at each vertex with one weight in a frame, or a number with three.
+/// The numbers of a component of each kind: a vector at each vertex with one weight in a frame, or a number with three.
 struct BasisTraits {
   uint32_t channels;         ///< numbers at a vertex
   uint32_t weight_channels;  ///< in a frame

@@ -47,35 +47,34 @@ Bytes clip_file(const ClipsRecord& record, const MeshLayout& layout,
   }
 
   ContainerWriter file;
-  file.add("LIMI", true, kNoMesh, kNoSegment, limits.write());
-  file.add("CLIP", true, kNoMesh, kNoSegment, record.write());
+  file.add("LIMI", kNoMesh, kNoSegment, limits.write());
+  file.add("CLIP", kNoMesh, kNoSegment, record.write());
   if (!layout.root.empty())
-    file.add("ROOT", true, kNoMesh, kNoSegment, layout.root);
+    file.add("ROOT", kNoMesh, kNoSegment, layout.root);
   if (!layout.metadata.empty())
-    file.add_copied("META", kNoMesh, kNoSegment,
-                    Bytes(layout.metadata.begin(), layout.metadata.end()));
+    file.add("META", kNoMesh, kNoSegment, Bytes(layout.metadata.begin(), layout.metadata.end()));
   for (uint32_t i = 0; i < segments.size(); ++i) {
     if (layout.has_bounds && segments[i]->sizes.attribute == kPositions)
-      file.add_copied("BNDS", kMesh, i, bounds_record(*segments[i]));
+      file.add("BNDS", kMesh, i, bounds_record(*segments[i]));
   }
-  file.add("MESH", true, kMesh, kNoSegment, mesh.write());
+  file.add("MESH", kMesh, kNoSegment, mesh.write());
   if (record.order != OrderMode::kFree)
-    file.add("VMAP", true, kMesh, kNoSegment, layout.vertex_map);
+    file.add("VMAP", kMesh, kNoSegment, layout.vertex_map);
   if (record.order == OrderMode::kAll)
-    file.add("FMAP", true, kMesh, kNoSegment, layout.face_map);
+    file.add("FMAP", kMesh, kNoSegment, layout.face_map);
   if (!layout.attributes.empty())
-    file.add("ATTR", false, kMesh, kNoSegment, layout.attributes);
+    file.add("ATTR", kMesh, kNoSegment, layout.attributes);
   const EncodedPose* of_mesh = nullptr;  // the first one, which most segments share
   for (const EncodedSegment* segment : segments) {
     if (!of_mesh)
       of_mesh = segment->reference.get();
   }
   if (of_mesh)
-    file.add("POSE", true, kMesh, kNoSegment, pose_record(*of_mesh));
+    file.add("POSE", kMesh, kNoSegment, pose_record(*of_mesh));
   for (uint32_t i = 0; i < segments.size(); ++i) {
     const EncodedSegment& s = *segments[i];
     if (s.reference && s.reference.get() != of_mesh)
-      file.add("POSE", true, kMesh, i, pose_record(*s.reference));
+      file.add("POSE", kMesh, i, pose_record(*s.reference));
     SegmentRecord segment;
     segment.hash = s.hash;
     segment.continued = s.continued_identity;
@@ -83,16 +82,16 @@ Bytes clip_file(const ClipsRecord& record, const MeshLayout& layout,
     segment.pose = s.pose;
     segment.motion = s.motion;
     segment.weights = s.weights;
-    file.add("SEGM", true, kMesh, i, segment.write());
+    file.add("SEGM", kMesh, i, segment.write());
     for (const Bytes& layer : s.layers)
-      file.add("BASI", true, kMesh, i, layer);
+      file.add("BASI", kMesh, i, layer);
     if (!s.corrections.empty())
-      file.add("CORR", true, kMesh, i, s.corrections);
+      file.add("CORR", kMesh, i, s.corrections);
   }
   // Exact positions come last: streams play before they are there.
   for (uint32_t i = 0; i < segments.size(); ++i) {
     if (!segments[i]->exact.empty())
-      file.add("DIFF", true, kMesh, i, segments[i]->exact);
+      file.add("DIFF", kMesh, i, segments[i]->exact);
   }
   return file.finish(limits.features());
 }

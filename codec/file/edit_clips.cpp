@@ -23,8 +23,6 @@ std::string text_of(const String& text) {
   return {text.begin(), text.end()};
 }
 
-constexpr const char (*kSegmentChunks[])[5] = {&"POSE", &"SEGM", &"BASI", &"CORR", &"DIFF"};
-
 /// A file, its records read.
 struct Opened {
   explicit Opened(const ClipPart& part) : file(part) {
@@ -124,25 +122,21 @@ class Edited {
     }
     ContainerWriter out;
     record_.place();
-    out.add("LIMI", true, kNoMesh, kNoSegment, limits_.write());
-    out.add("CLIP", true, kNoMesh, kNoSegment, record_.write());
+    out.add("LIMI", kNoMesh, kNoSegment, limits_.write());
+    out.add("CLIP", kNoMesh, kNoSegment, record_.write());
     if (limits_.root_frames > 0)
-      out.add("ROOT", true, kNoMesh, kNoSegment, root());
+      out.add("ROOT", kNoMesh, kNoSegment, root());
     add_copied(base_, kNoMesh, kNoMesh, out);
     for (uint32_t i = 0; i < segments_.size(); ++i)
       add_chunks(segments_[i], i, ChunkPlace::kBeforeMeshes, out);
-    for (const char(*type)[5] : kMeshChunks) {
-      if (const Chunk* chunk = base_.reader.find(*type, 0))
-        out.add(*chunk, 0, kNoSegment, copy(base_.payload(*chunk)));
-    }
-    add_copied(base_, 0, 0, out);
+    add_mesh(base_, 0, out);
     for (uint32_t i = 0; i < segments_.size(); ++i) {
       const Moved& s = segments_[i];
       // A segment that leans on the pose of another file brings it along.
       const bool linear = limits_.segments[i].kind != BasisKind::kKeyframes;
       const ByteView own = s.from->of_mesh("POSE");
       if (linear && !s.from->reader.find("POSE", 0, s.number) && !equal(own, pose))
-        out.add("POSE", true, 0, i, copy(own));
+        out.add("POSE", 0, i, copy(own));
       add_chunks(s, i, ChunkPlace::kWithSegment, out);
     }
     for (uint32_t i = 0; i < segments_.size(); ++i)
@@ -166,11 +160,7 @@ class Edited {
   static void add_chunks(const Moved& segment, uint32_t number, ChunkPlace place,
                          ContainerWriter& out) {
     for (const Chunk& chunk : segment.from->reader.chunks()) {
-      const bool goes_along =
-          chunk.copied || std::ranges::any_of(kSegmentChunks, [&](const char(*type)[5]) {
-            return chunk.type == chunk_type(*type);
-          });
-      if (goes_along && chunk.segment == segment.number && place_of(chunk) == place)
+      if (goes_along(chunk) && chunk.segment == segment.number && place_of(chunk) == place)
         out.add(chunk, 0, number, copy(segment.from->payload(chunk)));
     }
   }

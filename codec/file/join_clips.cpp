@@ -81,8 +81,8 @@ void check_same_mesh(const OpenPart& first, const OpenPart& next) {
   if (!first.record.same_origin(next.record))
     fail(next.part, ErrorKind::kInput,
          "counts positions from another origin than " + first.part.name + ", see --origin");
-  for (const char(*type)[5] : kMeshChunks) {
-    if (!equal(first.of_mesh(*type), next.of_mesh(*type)))
+  for (const ChunkKind& kind : kChunkKinds) {
+    if (is_of_meshes(kind) && !equal(first.of_mesh(kind.name), next.of_mesh(kind.name)))
       fail(next.part, ErrorKind::kInput,
            "does not have the connectivity, welds and reference pose of " + first.part.name +
                "; parts are encoded from the whole clip, with --part and the same target");
@@ -154,11 +154,7 @@ ClipsRecord joined_record(const std::vector<OpenPart>& parts) {
 /// Adds a chunk of a segment under its new number, to a mesh.
 void add_chunk(const OpenPart& part, const Chunk& chunk, uint16_t mesh, uint32_t segment,
                ContainerWriter& file) {
-  for (const char(*type)[5] : {&"POSE", &"SEGM", &"BASI", &"CORR", &"DIFF"}) {
-    if (chunk.type == chunk_type(*type))
-      return file.add(*type, chunk.required, mesh, segment, copy(part.payload(chunk)));
-  }
-  if (chunk.copied)
+  if (goes_along(chunk))
     return file.add(chunk, mesh, segment, copy(part.payload(chunk)));
   if (chunk.required)
     fail(part.part, ErrorKind::kUnsupported,
@@ -247,8 +243,8 @@ Bytes join(const std::vector<PlacedMesh>& parts, uint32_t frames, ClipsRecord re
     limits.segments.push_back(segment.sizes);
 
   ContainerWriter file;
-  file.add("LIMI", true, kNoMesh, kNoSegment, limits.write());
-  file.add("CLIP", true, kNoMesh, kNoSegment, record.write());
+  file.add("LIMI", kNoMesh, kNoSegment, limits.write());
+  file.add("CLIP", kNoMesh, kNoSegment, record.write());
   add_copied(*meshes[0], kNoMesh, kNoMesh, file);
   const auto add_segments = [&](ChunkPlace place) {
     for (uint32_t s = 0; s < segments.size(); ++s) {
@@ -260,13 +256,8 @@ Bytes join(const std::vector<PlacedMesh>& parts, uint32_t frames, ClipsRecord re
     }
   };
   add_segments(ChunkPlace::kBeforeMeshes);
-  for (uint16_t m = 0; m < meshes.size(); ++m) {
-    for (const char(*type)[5] : kMeshChunks) {
-      if (const Chunk* chunk = meshes[m]->reader.find(*type, 0))
-        file.add(*chunk, m, kNoSegment, copy(meshes[m]->payload(*chunk)));
-    }
-    add_copied(*meshes[m], 0, m, file);
-  }
+  for (uint16_t m = 0; m < meshes.size(); ++m)
+    add_mesh(*meshes[m], m, file);
   add_segments(ChunkPlace::kWithSegment);
   add_segments(ChunkPlace::kBehindSegments);
   Bytes bytes = file.finish(limits.features());

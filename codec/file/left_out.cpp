@@ -5,7 +5,6 @@
 #include "codec/file/part_chunks.h"
 #include "format/container.h"
 #include "format/records.h"
-#include "sdk/clip/file_checks.h"
 
 #include <algorithm>
 
@@ -48,7 +47,7 @@ std::vector<std::string> list_left_out(const std::vector<ClipPart>& files, ByteV
     file.open(part.file);
     for (const Chunk& chunk : file.chunks()) {
       const std::string start = part.name + ": leaves out chunk " + chunk_name(chunk.type);
-      if (!chunk.copied && !is_known_chunk(chunk.type))
+      if (!chunk.copied && !find_chunk_kind(chunk.type))
         lines.push_back(start + ", which this version does not know");
       else if (chunk.copied && chunk.segment == kNoSegment &&
                !has_same(result, chunk, file.unchecked(chunk)))

@@ -8,6 +8,7 @@
 #include "codec/file/join_clips.h"
 #include "codec/sequence/error.h"
 #include "format/bytes.h"
+#include "format/chunk_kinds.h"
 #include "format/container.h"
 #include "sdk/clip/file_checks.h"
 
@@ -16,17 +17,16 @@
 
 namespace anicodec {
 
-/// The chunks that a mesh has once.
-inline constexpr const char (*kMeshChunks[])[5] = {&"MESH", &"VMAP", &"FMAP", &"ATTR", &"POSE"};
-
-/// The place of a chunk of a segment (spec/05-file-layout.md, section 6): boxes come before all meshes, what refines all that
-/// plays behind all segments.
-enum class ChunkPlace : uint8_t { kBeforeMeshes, kWithSegment, kBehindSegments };
-
+/// The place of a chunk of a segment; an unknown chunk stands with its segment.
 inline ChunkPlace place_of(const Chunk& chunk) {
-  return chunk.type == chunk_type("BNDS")   ? ChunkPlace::kBeforeMeshes
-         : chunk.type == chunk_type("DIFF") ? ChunkPlace::kBehindSegments
-                                            : ChunkPlace::kWithSegment;
+  const ChunkKind* kind = find_chunk_kind(chunk.type);
+  return kind ? kind->place : ChunkPlace::kWithSegment;
+}
+
+/// Whether a chunk goes along with its segment to another file.
+inline bool goes_along(const Chunk& chunk) {
+  const ChunkKind* kind = find_chunk_kind(chunk.type);
+  return chunk.copied || (kind && is_of_segments(*kind));
 }
 
 [[noreturn]] inline void fail(const ClipPart& part, ErrorKind kind, const std::string& text) {
@@ -44,6 +44,14 @@ void check_known_chunks(const Part& opened, const ClipPart& part) {
     fail(part, ErrorKind::kCorrupt, status_string(failure.status));
 }
 
+inline bool equal(ByteView a, ByteView b) {
+  return a.size == b.size && std::equal(a.data, a.data + a.size, b.data);
+}
+
+inline Bytes copy(ByteView view) {
+  return Bytes(view.data, view.data + view.size);
+}
+
 /// Adds the chunks marked as copied that a part has for a mesh, or for the file as a whole (kNoMesh), under the
 /// number `as` of the mesh. Part: has `reader` and payload().
 template <class Part>
@@ -55,12 +63,15 @@ void add_copied(const Part& part, uint16_t mesh, uint16_t as, ContainerWriter& f
   }
 }
 
-inline bool equal(ByteView a, ByteView b) {
-  return a.size == b.size && std::equal(a.data, a.data + a.size, b.data);
-}
-
-inline Bytes copy(ByteView view) {
-  return Bytes(view.data, view.data + view.size);
+/// Adds the chunks of the only mesh of a part as a whole, under the number `as`.
+template <class Part>
+void add_mesh(const Part& part, uint16_t as, ContainerWriter& file) {
+  for (const ChunkKind& kind : kChunkKinds) {
+    const Chunk* chunk = is_of_meshes(kind) ? part.reader.find(kind.name, 0) : nullptr;
+    if (chunk)
+      file.add(*chunk, as, kNoSegment, copy(part.payload(*chunk)));
+  }
+  add_copied(part, 0, as, file);
 }
 
 }  // namespace anicodec

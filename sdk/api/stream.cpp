@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // The C interface: files that are read through a callback, or arrive piece by piece, one after the other.
+#include "format/chunk_kinds.h"
 #include "format/continuation.h"
 #include "sdk/api/objects.h"
 #include "sdk/clip/file_checks.h"
@@ -65,14 +66,13 @@ template <class Visit>
 void each_needed(anic_stream* stream, size_t begin, size_t end, Visit visit) {
   for (size_t i = begin; i < end; ++i) {
     const Chunk& chunk = stream->file.chunks()[i];
-    if (chunk.segment == kNoSegment) {
-      if (chunk.required)
-        visit(&stream->common_missing);
-    } else if (chunk.segment < stream->missing.size() && chunk.type != chunk_type("BASI") &&
-               chunk.type != chunk_type("CORR") && chunk.type != chunk_type("DIFF") &&
-               chunk.required) {
+    const ChunkKind* kind = find_chunk_kind(chunk.type);
+    if (!chunk.required)
+      continue;
+    if (chunk.segment == kNoSegment)
+      visit(&stream->common_missing);
+    else if (chunk.segment < stream->missing.size() && !(kind && kind->refines))
       visit(&stream->missing[chunk.segment]);
-    }
   }
 }
 

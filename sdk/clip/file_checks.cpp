@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/clip/file_checks.h"
 
+#include "format/chunk_kinds.h"
 #include "sdk/clip/clip.h"
 #include "sdk/clip/memory_estimate.h"
 #include "sdk/mesh/draco_poses.h"
@@ -10,58 +11,21 @@
 #include <algorithm>
 
 namespace anicodec {
-namespace {
-
-/// Which meshes and segments the chunks of a type may belong to.
-enum class Owner : uint8_t { kClip, kMesh, kSegment, kEither };
-
-struct KnownChunk {
-  uint32_t type;
-  Owner owner;
-  bool required = true;  ///< must be marked so
-  bool copied = false;   ///< must be marked so
-};
-
-constexpr KnownChunk kKnownChunks[] = {{chunk_type("LIMI"), Owner::kClip},
-                                       {chunk_type("CLIP"), Owner::kClip},
-                                       {chunk_type("MESH"), Owner::kMesh},
-                                       {chunk_type("VMAP"), Owner::kMesh},
-                                       {chunk_type("FMAP"), Owner::kMesh},
-                                       {chunk_type("POSE"), Owner::kEither},
-                                       {chunk_type("SEGM"), Owner::kSegment},
-                                       {chunk_type("BASI"), Owner::kSegment},
-                                       {chunk_type("CORR"), Owner::kSegment},
-                                       {chunk_type("ATTR"), Owner::kMesh, false},
-                                       {chunk_type("ROOT"), Owner::kClip},
-                                       {chunk_type("DIFF"), Owner::kSegment},
-                                       {chunk_type("META"), Owner::kClip, false, true},
-                                       {chunk_type("BNDS"), Owner::kSegment, false, true}};
-
-const KnownChunk* known(uint32_t type) {
-  const KnownChunk* found = std::find_if(std::begin(kKnownChunks), std::end(kKnownChunks),
-                                         [&](const KnownChunk& k) { return k.type == type; });
-  return found == std::end(kKnownChunks) ? nullptr : found;
-}
-
-}  // namespace
 
 Failure failure_in(const Chunk& chunk, Status status, const char* detail) {
   return {status, chunk.offset, chunk.type, detail};
 }
 
-bool is_known_chunk(uint32_t type) {
-  return known(type) != nullptr;
-}
-
 Failure check_chunks(const ContainerReader& file) {
   for (const Chunk& chunk : file.chunks()) {
-    if (chunk.required && !known(chunk.type))
+    if (chunk.required && !find_chunk_kind(chunk.type))
       return failure_in(chunk, Status::kChunkUnknown,
                         "the file needs a chunk this reader does not know");
   }
   for (size_t i = 1; i < file.by_key().size(); ++i) {
     const Chunk &a = file.chunks()[file.by_key()[i - 1]], &b = file.chunks()[file.by_key()[i]];
-    if (chunk_key(a) == chunk_key(b) && b.type != chunk_type("BASI") && known(b.type))
+    const ChunkKind* kind = chunk_key(a) == chunk_key(b) ? find_chunk_kind(b.type) : nullptr;
+    if (kind && !kind->repeats)
       return failure_in(b, Status::kChunkDuplicate, "a chunk occurs twice");
   }
   return {};
@@ -84,13 +48,13 @@ Failure check_features(uint64_t features) {
 }  // namespace
 
 Failure check_places(const ContainerReader& file, const Limits& limits, OrderMode order) {
-  auto fits = [&](const Chunk& chunk, Owner owner) {
+  auto fits = [&](const Chunk& chunk, ChunkOwner owner) {
     const bool of_segment = chunk.segment != kNoSegment;
-    if (owner == Owner::kClip)
+    if (owner == ChunkOwner::kClip)
       return chunk.mesh == kNoMesh && !of_segment &&
              (chunk.type != chunk_type("ROOT") || limits.root_frames > 0);
-    if (chunk.mesh >= limits.meshes.size() || (owner == Owner::kMesh && of_segment) ||
-        (owner == Owner::kSegment && !of_segment))
+    if (chunk.mesh >= limits.meshes.size() || (owner == ChunkOwner::kMesh && of_segment) ||
+        (owner == ChunkOwner::kSegment && !of_segment))
       return false;
     if (chunk.type == chunk_type("ATTR"))
       return limits.meshes[chunk.mesh].attributes > 0;
@@ -113,8 +77,9 @@ Failure check_places(const ContainerReader& file, const Limits& limits, OrderMod
     return chunk.type == chunk_type("SEGM") || segment.kind != BasisKind::kKeyframes;
   };
   for (const Chunk& chunk : file.chunks()) {
-    const KnownChunk* k = known(chunk.type);
-    if (k && !(chunk.required == k->required && chunk.copied == k->copied && fits(chunk, k->owner)))
+    const ChunkKind* kind = find_chunk_kind(chunk.type);
+    if (kind && !(chunk.required == kind->required && chunk.copied == kind->copied &&
+                  fits(chunk, kind->owner)))
       return failure_in(chunk, Status::kIndexRange, "a chunk belongs to nothing in the file");
   }
   return {};

@@ -18,9 +18,6 @@ struct OpenOptions;
 /// segments).
 Failure read_limits(const ContainerReader& file, const OpenOptions& options, Limits* out);
 
-/// Whether this version knows a type of chunk.
-bool is_known_chunk(uint32_t type);
-
 /// Checks that every required chunk is known, and that only layers of a basis occur twice.
 Failure check_chunks(const ContainerReader& file);
 
