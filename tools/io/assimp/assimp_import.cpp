@@ -3,14 +3,13 @@
 #include "tools/io/assimp/assimp_import.h"
 
 #include "codec/sequence/mesh_sequence.h"
-#include "tools/io/base/byte_order.h"
 #include "tools/io/base/mesh.h"
 #include "tools/io/base/shininess.h"
 #include "tools/io/gltf/gltf_serial.h"
+#include "tools/io/guard/guard_message.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -454,9 +453,8 @@ const aiScene& import(Assimp::Importer& importer, const std::string& path, unsig
   return *scene;
 }
 
-std::vector<std::string> import_scenes(const std::string& path, uint32_t frames,
-                                       bool allow_outside) {
-  std::vector<std::string> out;
+std::string import_scenes(const std::string& path, uint32_t frames, bool allow_outside) {
+  std::string out;
   for (uint32_t f = 0; f < std::max(frames, 1U); ++f) {
     Assimp::Importer importer;
     importer.SetIOHandler(new SceneFiles(path, allow_outside));  // the importer owns it
@@ -464,16 +462,7 @@ std::vector<std::string> import_scenes(const std::string& path, uint32_t frames,
       importer.SetPropertyInteger(AI_CONFIG_IMPORT_GLOBAL_KEYFRAME, static_cast<int>(f));
     const aiScene& scene =
         import(importer, path, frames > 0 ? 0U : aiProcess_JoinIdenticalVertices + 0U);
-    out.push_back(glb_of(Converter(scene, path).convert()));
-  }
-  return out;
-}
-
-std::string packed(const std::vector<std::string>& scenes) {
-  std::string out;
-  for (const std::string& scene : scenes) {
-    append(uint64_t{scene.size()}, std::endian::native, out);
-    out += scene;
+    append_values(glb_of(Converter(scene, path).convert()), out);
   }
   return out;
 }
@@ -486,7 +475,7 @@ extern "C" __attribute__((visibility("default"))) int anicodec_import_with_assim
     anicodec::tools::TakeBytes take) {
   using namespace anicodec::tools;
   try {
-    const std::string bytes = packed(import_scenes(path, frames, allow_outside != 0));
+    const std::string bytes = import_scenes(path, frames, allow_outside != 0);
     take(user, bytes.data(), bytes.size());
     return 0;
   } catch (const std::bad_alloc&) {

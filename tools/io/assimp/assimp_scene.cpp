@@ -10,6 +10,7 @@
 #include "tools/io/base/printable.h"
 #include "tools/io/files/byte_source.h"
 #include "tools/io/gltf/gltf_format.h"
+#include "tools/io/guard/guard_message.h"
 #include "tools/io/guard/guarded_call.h"
 
 #include <algorithm>
@@ -89,34 +90,6 @@ std::string imported(ImportWithAssimp import, const std::string& path, uint32_t 
   return bytes;
 }
 
-/// Takes apart what the plug-in gave, trusting nothing of it; scenes point into it.
-class Unpacker {
- public:
-  Unpacker(std::string_view bytes, const std::string& path) : bytes_(bytes), path_(path) {}
-
-  template <typename T>
-  T number() {
-    const std::string_view bytes = take(sizeof(T));
-    return load<T>(bytes.data(), std::endian::native);
-  }
-
-  std::string_view scene() { return take(number<uint64_t>()); }
-
-  bool at_end() const { return bytes_.empty(); }
-
- private:
-  std::string_view take(uint64_t size) {
-    if (size > bytes_.size())
-      fail_input(path_, "the process that reads it says nothing that makes sense");
-    const std::string_view taken = bytes_.substr(0, size);
-    bytes_.remove_prefix(size);
-    return taken;
-  }
-
-  std::string_view bytes_;
-  const std::string& path_;
-};
-
 /// Adds a stored frame to those before it.
 void add_stored_frame(MeshSequence frame, const std::string& path, MeshSequence& out) {
   if (frame.polygons != out.polygons || frame.vertex_count != out.vertex_count)
@@ -141,9 +114,9 @@ AssimpFile read_file_by_assimp(const std::string& path, uint32_t frames,
   AssimpFile file;
   file.bytes = run_guarded(path, limits,
                            [&] { return imported(import, path, frames, options.allow_outside); });
-  Unpacker in(file.bytes, path);
+  GuardMessage in(file.bytes, path);
   while (!in.at_end())
-    file.scenes.push_back(in.scene());
+    file.scenes.push_back(in.text());
   if (file.scenes.empty())
     fail_input(path, "holds no scene");
   return file;

@@ -3,7 +3,7 @@
 #include "tools/io/fbx/fbx_message.h"
 
 #include "format/bytes.h"
-#include "tools/io/base/mesh.h"
+#include "tools/io/guard/guard_message.h"
 
 #include <algorithm>
 #include <cstring>
@@ -13,18 +13,6 @@ namespace anicodec::tools {
 namespace {
 
 constexpr char kClip = 'C', kNote = 'N';
-
-template <typename Values>
-void append_values(const Values& values, std::string& out) {
-  const uint64_t count = values.size();
-  out.append(reinterpret_cast<const char*>(&count), sizeof count);
-  out.append(reinterpret_cast<const char*>(values.data()), count * sizeof(values[0]));
-}
-
-template <typename T>
-void append_one(const T& value, std::string& out) {
-  out.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
 
 void append_labels(const PolygonLabels& labels, std::string& out) {
   append_one(uint64_t{labels.names.size()}, out);
@@ -39,64 +27,19 @@ void append_labels(const PolygonLabels& labels, std::string& out) {
   }
 }
 
-/// Numbers and texts of a message.
-class MessageReader {
- public:
-  MessageReader(std::string_view bytes, const std::string& path) : bytes_(bytes), path_(path) {}
-
-  bool at_end() const { return bytes_.empty(); }
-
-  template <typename T>
-  T one() {
-    T value;
-    std::memcpy(&value, take(1, sizeof value).data(), sizeof value);
-    return value;
+void read_labels(GuardMessage& in, PolygonLabels& out) {
+  for (auto count = in.one<uint64_t>(); count > 0; --count)
+    out.names.emplace_back(in.text());
+  in.values(out.of_polygon);
+  for (auto count = in.one<uint64_t>(); count > 0; --count) {
+    const std::string_view bytes = in.text();
+    ByteReader reader({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
+    if (!out.looks.emplace_back().read(reader))
+      in.fail();
   }
+}
 
-  template <typename Values>
-  void values(Values& out) {
-    const auto count = one<uint64_t>();
-    const std::string_view bytes = take(count, sizeof out[0]);
-    out.resize(count);
-    std::memcpy(out.data(), bytes.data(), bytes.size());
-  }
-
-  std::string text() {
-    std::string out;
-    values(out);
-    return out;
-  }
-
-  void labels(PolygonLabels& out) {
-    for (auto count = one<uint64_t>(); count > 0; --count)
-      out.names.push_back(text());
-    values(out.of_polygon);
-    for (auto count = one<uint64_t>(); count > 0; --count) {
-      const std::string bytes = text();
-      ByteReader reader({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
-      if (!out.looks.emplace_back().read(reader))
-        fail();
-    }
-  }
-
-  [[noreturn]] void fail() const {
-    fail_input(path_, "the process that reads it says nothing that makes sense");
-  }
-
- private:
-  std::string_view take(uint64_t count, size_t size) {
-    if (count > bytes_.size() / size)
-      fail();
-    const std::string_view taken = bytes_.substr(0, count * size);
-    bytes_.remove_prefix(taken.size());
-    return taken;
-  }
-
-  std::string_view bytes_;
-  const std::string& path_;
-};
-
-MeshSequence read_clip(MessageReader& in) {
+MeshSequence read_clip(GuardMessage& in) {
   MeshSequence clip;
   clip.name = in.text();
   clip.vertex_count = in.one<uint32_t>();
@@ -112,8 +55,8 @@ MeshSequence read_clip(MessageReader& in) {
     attribute.components = in.one<uint32_t>();
     in.values(attribute.values);
   }
-  in.labels(clip.materials);
-  in.labels(clip.parts);
+  read_labels(in, clip.materials);
+  read_labels(in, clip.parts);
   clip.rate.numerator = in.one<uint32_t>();
   clip.rate.denominator = in.one<uint32_t>();
   clip.rate.assumed = in.one<uint8_t>() != 0;
@@ -191,12 +134,12 @@ std::string FbxMessage::finish() {
 
 FbxResult read_fbx_message(std::string_view bytes, const std::string& path) {
   FbxResult result;
-  for (MessageReader in(bytes, path); !in.at_end();) {
+  for (GuardMessage in(bytes, path); !in.at_end();) {
     const auto kind = in.one<char>();
     if (kind == kClip)
       result.clips.push_back(read_clip(in));
     else if (kind == kNote)
-      result.notes.push_back(in.text());
+      result.notes.emplace_back(in.text());
     else
       in.fail();
   }

@@ -1,86 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "tools/io/base/byte_order.h"
 #include "tools/io/base/mesh.h"
 #include "tools/io/gltf/gltf_compression.h"
+#include "tools/io/guard/guard_message.h"
 #include "tools/io/guard/guarded_call.h"
 
 #include <algorithm>
-#include <bit>
+#include <string_view>
 
 namespace anicodec::tools {
 namespace {
-
-template <typename T>
-void append_all(const std::vector<T>& values, std::string& out) {
-  append(uint64_t{values.size()}, std::endian::native, out);
-  out.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-}
 
 /// Empty for nothing.
 std::string packed(const std::optional<DracoPrimitive>& primitive) {
   std::string out;
   if (!primitive)
     return out;
-  append_all(primitive->indices, out);
+  append_values(primitive->indices, out);
   for (const auto& [name, values] : primitive->attributes) {
-    append(values.components, std::endian::native, out);
-    append(values.normalizing_scale, std::endian::native, out);
-    append_all(values.values, out);
+    append_one(values.components, out);
+    append_one(values.normalizing_scale, out);
+    append_values(values.values, out);
   }
   return out;
 }
 
 /// Takes apart what packed() made, trusting nothing of it.
-class Unpacker {
- public:
-  explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}
-
-  template <typename T>
-  T number() {
-    if (bytes_.size() < sizeof(T)) {
-      is_good_ = false;
-      return {};
-    }
-    const T x = load<T>(bytes_.data(), std::endian::native);
-    bytes_.remove_prefix(sizeof(T));
-    return x;
-  }
-
-  template <typename T>
-  std::vector<T> numbers(uint64_t expected) {
-    std::vector<T> out;
-    if (number<uint64_t>() != expected || bytes_.size() / sizeof(T) < expected) {
-      is_good_ = false;
-      return out;
-    }
-    out.resize(expected);
-    std::copy_n(bytes_.data(), expected * sizeof(T), reinterpret_cast<char*>(out.data()));
-    bytes_.remove_prefix(expected * sizeof(T));
-    return out;
-  }
-
-  bool is_good() const { return is_good_; }
-
- private:
-  std::string_view bytes_;
-  bool is_good_ = true;
-};
-
-std::optional<DracoPrimitive> unpacked(std::string_view bytes, const DracoSource& source) {
-  Unpacker in(bytes);
+std::optional<DracoPrimitive> unpacked(std::string_view bytes, const std::string& name,
+                                       const DracoSource& source) {
+  if (bytes.empty())
+    return std::nullopt;
+  GuardMessage in(bytes, name);
   DracoPrimitive out;
   out.points = source.points;
-  out.indices = in.numbers<uint32_t>(source.indices);
-  for (const auto& [name, id] : source.attributes) {
-    DracoPrimitive::Values& values = out.attributes[name];
-    values.components = in.number<uint32_t>();
-    values.normalizing_scale = in.number<float>();
-    values.values = in.numbers<float>(uint64_t{source.points} * values.components);
+  in.values(out.indices);
+  bool fits = out.indices.size() == source.indices &&
+              std::ranges::all_of(out.indices, [&](uint32_t i) { return i < out.points; });
+  for (const auto& [attribute, id] : source.attributes) {
+    DracoPrimitive::Values& values = out.attributes[attribute];
+    values.components = in.one<uint32_t>();
+    values.normalizing_scale = in.one<float>();
+    in.values(values.values);
+    fits = fits && values.values.size() == uint64_t{source.points} * values.components;
   }
-  const bool within = std::ranges::all_of(out.indices, [&](uint32_t i) { return i < out.points; });
-  if (!in.is_good() || !within)
-    return std::nullopt;
+  if (!fits)
+    in.fail();
   return out;
 }
 
@@ -99,7 +63,8 @@ std::optional<DracoPrimitive> decode_draco_guarded(const DracoSource& source,
   const uint64_t needed = kOfAny + kOfEach * elements;
   const GuardLimits limits =
       GuardLimits::for_input(source.bytes.size(), std::min(needed, memory_limit));
-  return unpacked(run_guarded(name, limits, [&] { return packed(decode_draco(source)); }), source);
+  const std::string said = run_guarded(name, limits, [&] { return packed(decode_draco(source)); });
+  return unpacked(said, name, source);
 }
 
 }  // namespace anicodec::tools
