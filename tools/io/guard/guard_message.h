@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What the work of run_guarded() says, as bytes that cross from the child to its parent.
+// The messages of the work of run_guarded(), as bytes that cross from the child to its parent.
 #ifndef ANICODEC_TOOLS_IO_GUARD_GUARD_MESSAGE_H_
 #define ANICODEC_TOOLS_IO_GUARD_GUARD_MESSAGE_H_
 
