@@ -51,6 +51,11 @@ class PlayedFile {
 
   void seek(uint32_t frame) { check(anic_seek_frame(context_, frame)); }
 
+  void check_hashes() const {
+    if (anic_verify_asset(asset_) != ANIC_OK)
+      throw Error(ErrorKind::kInternal, "the encoded file decodes to other integers");
+  }
+
   /// Positions of a mesh in the frame sought.
   void positions(uint32_t mesh, std::vector<float>* out) const {
     anic_output output = ANIC_INIT(anic_output);
@@ -155,8 +160,7 @@ bool has_all_bits(BothPositions* both, const FrameRun& run) {
 /// Measures attributes that change over time in some frames.
 std::vector<AttributeError> measure(PlayedFile* file, const EncoderInput& input,
                                     const FrameRun& run,
-                                    const std::vector<const StoredAttribute*>& moving,
-                                    uint32_t first_frame) {
+                                    const std::vector<const StoredAttribute*>& moving) {
   std::vector<AttributeError> errors(moving.size());
   std::vector<double> squared(moving.size());
   std::vector<float> played;
@@ -171,7 +175,7 @@ std::vector<AttributeError> measure(PlayedFile* file, const EncoderInput& input,
       const size_t elements = stored.rows.size(), n = attribute.components;
       played.resize(elements * n);
       file->attribute(stored.number, static_cast<uint32_t>(elements), &played);
-      const float* source = attribute.values.data() + size_t{f + first_frame} * elements * n;
+      const float* source = attribute.values.data() + size_t{f + input.first_frame} * elements * n;
       for (size_t e = 0; e < elements; ++e) {
         const float* values = source + (canonical ? stored.rows[e] : e) * n;
         for (size_t c = 0; c < n; ++c) {
@@ -235,12 +239,10 @@ BoundsRecord bounds_of(PlayedFile* file, uint32_t number) {
 }  // namespace
 
 CheckedFile check_file(const Bytes& bytes, const EncoderInput& input,
-                       const std::vector<StoredAttribute>& stored, uint32_t first_frame,
-                       bool is_lossless, KeptLearning* learning,
-                       std::vector<AttributeResult>* attributes) {
+                       const std::vector<StoredAttribute>& stored, bool is_lossless,
+                       KeptLearning* learning, std::vector<AttributeResult>* attributes) {
   PlayedFile file(bytes, learning);
-  if (anic_verify_asset(file.asset()) != ANIC_OK)
-    throw Error(ErrorKind::kInternal, "the encoded file decodes to other integers");
+  file.check_hashes();
   std::vector<const StoredAttribute*> moving;
   for (const AttributeResult& result : *attributes)
     moving.push_back(&*std::ranges::find(stored, result.number, &StoredAttribute::number));
@@ -252,8 +254,7 @@ CheckedFile check_file(const Bytes& bytes, const EncoderInput& input,
     if (is_lossless && !has_all_bits(&both, source.frames))
       throw Error(ErrorKind::kInternal, "the encoded file does not have the source's positions");
     const double share = static_cast<double>(source.frames.count) / file.info().frame_count;
-    const std::vector<AttributeError> errors =
-        measure(&file, input, source.frames, moving, first_frame);
+    const std::vector<AttributeError> errors = measure(&file, input, source.frames, moving);
     for (size_t a = 0; a < errors.size(); ++a) {
       AttributeResult& result = (*attributes)[a];
       if (errors[a].max_error > result.asked)
@@ -266,6 +267,10 @@ CheckedFile check_file(const Bytes& bytes, const EncoderInput& input,
   for (uint32_t s = 0; s < file.info().segment_count; ++s)
     checked.bounds.push_back(bounds_of(&file, s));
   return checked;
+}
+
+void check_hashes(const Bytes& bytes) {
+  PlayedFile(bytes, nullptr).check_hashes();
 }
 
 }  // namespace anicodec

@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/encode_live.h"
 
-#include "codec/encode.h"
 #include "codec/file/edit_clips.h"
 #include "codec/sequence/error.h"
 #include "format/continuation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -23,17 +23,21 @@ ContainerReader container_of(const Bytes& file) {
 
 }  // namespace
 
-LiveEncoder::LiveEncoder(MeshSequence mesh, const EncodeOptions& options, double key_every)
-    : mesh_(std::move(mesh)), options_(options), key_every_(key_every) {
+LiveEncoder::LiveEncoder(MeshSequence mesh, const EncodeOptions& options, double key_every,
+                         double box)
+    : mesh_(std::move(mesh)), options_(options), box_(box), key_every_(key_every) {
+  if (!(std::isfinite(box) && box >= 0))
+    throw Error(ErrorKind::kUsage,
+                "the diagonal that percentages are of must be finite and not negative");
   options_.effort = less(options.effort);
   const ErrorMetric metric = options.target.metric;
-  if (metric == ErrorMetric::kSize || metric == ErrorMetric::kBpfv ||
-      metric == ErrorMetric::kNone || is_lossless(options.target))
+  if (is_size(metric) || metric == ErrorMetric::kNone || is_lossless(options.target))
     throw Error(ErrorKind::kUsage, "a live stream needs an error to keep, and cannot be lossless");
-  if (options.keyframes || options.basis == BasisChoice::kKeyframes || options.root_motion)
+  if (options.keyframes || options.basis == BasisChoice::kKeyframes || options.root_motion ||
+      options.massage.mode != MassageMode::kOff)
     throw Error(ErrorKind::kUsage,
-                "key-frames and the motion of the whole need all frames, which a live stream "
-                "does not have");
+                "key-frames, massage and the motion of the whole need all frames, which a live "
+                "stream does not have");
   for (Attribute& attribute : mesh_.attributes) {
     if (attribute.frames == 0) {
       options_.attributes.moving.push_back(
@@ -75,7 +79,7 @@ MeshSequence LiveEncoder::sequence_of(FrameArray positions, std::vector<FrameArr
 
 /// Whether what moves is still coded once where the mesh says so.
 bool LiveEncoder::fits(const MeshSequence& sequence) const {
-  return std::ranges::all_of(*options_.stored, [&](const StoredAttribute& stored) {
+  return std::ranges::all_of(*stored_, [&](const StoredAttribute& stored) {
     const Attribute& attribute = sequence.attributes[stored.source];
     return !stored.moves || moves_as_stored(attribute, stored);
   });
@@ -85,17 +89,27 @@ bool LiveEncoder::fits(const MeshSequence& sequence) const {
 void LiveEncoder::begin(const MeshSequence& sequence) {
   auto layout =
       std::make_shared<MeshLayout>(lay_out_mesh(sequence, no_weld(sequence.vertex_count)));
-  options_.stored = std::make_shared<const std::vector<StoredAttribute>>(
+  stored_ = std::make_shared<const std::vector<StoredAttribute>>(
       encode_attributes(sequence, options_.attributes, layout.get()));
+  layout_ = std::move(layout);
   options_.bounds = false;  // pieces are short, and played as they come
-  options_.layout = std::move(layout);
   options_.pose.reset();
-  const double size = diagonal(sequence);
-  options_.target = in_scene_units(options_.target, size);
-  if (options_.cap)
-    options_.cap = in_scene_units(*options_.cap, size);
+  if (!goal_) {
+    const double size = box_ > 0 ? box_ : diagonal(sequence);
+    goal_ = clip_goals(options_.target, options_.cap, {size}, size)[0];
+  }
   // Its pose is one that all that follows can lean on.
   options_.part = FrameRun{0, sequence.frame_count};
+}
+
+MeshPlan LiveEncoder::plan(const MeshSequence& sequence) {
+  ClipGoal goal = *goal_;
+  goal.diagonal = diagonal(sequence);
+  MeshPlan plan = plan_mesh(sequence, options_, {goal});
+  plan.layout = layout_;
+  plan.stored = stored_;
+  plan.learning = key_every_ > 0 ? &learning_ : nullptr;
+  return plan;
 }
 
 LivePiece LiveEncoder::encode(FrameArray positions, std::vector<FrameArray> values,
@@ -118,8 +132,10 @@ LivePiece LiveEncoder::encode(FrameArray positions, std::vector<FrameArray> valu
   LivePiece piece;
   piece.is_key = since_key_ == 0;
   piece.has_mesh = true;
-  options_.learning = key_every_ > 0 ? &learning_ : nullptr;
-  static_cast<EncodeResult&>(piece) = anicodec::encode(std::move(sequence), options_, progress);
+  const MeshPlan planned = plan(sequence);
+  EncodedMesh encoded = encode_mesh(std::move(sequence), planned, progress);
+  static_cast<EncodeResult&>(piece) = std::move(encoded.result);
+  piece.file = encoded.file();
   mesh_.start_time += seconds;
   since_key_ += seconds;
   if (base_.empty()) {

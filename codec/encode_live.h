@@ -3,13 +3,17 @@
 #ifndef ANICODEC_CODEC_ENCODE_LIVE_H_
 #define ANICODEC_CODEC_ENCODE_LIVE_H_
 
-#include "codec/file/encode_options.h"
+#include "codec/encode_mesh.h"
+#include "codec/plan/encode_result.h"
+#include "codec/plan/mesh_plan.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "codec/sequence/progress.h"
 #include "format/bytes.h"
 #include "sdk/clip/kept_learning.h"
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace anicodec {
@@ -28,14 +32,15 @@ struct LivePiece : EncodeResult {
 class LiveEncoder {
  public:
   /// `mesh`: all but the frames, with the clock of the clip. Its attributes are kept as they are in it, but for those that
-  /// have no frame (`frames` 0): each piece brings their values. A largest error
-  /// in per cent is one of the diagonal of the first file's frames, that of an attribute one of the range that it has there (of 1 where it
-  /// rests). Effort::kFast takes the first file that keeps the
+  /// have no frame (`frames` 0): each piece brings their values. A largest error in per cent is one of the diagonal
+  /// `box` in scene units, or where that is 0 of the first file's frames; that of an attribute one of the range that it
+  /// has there (of 1 where it rests). Effort::kFast takes the first file that keeps the
   /// target, others search as one less does for a whole clip. Files go on learning where the one before ended; the first
   /// that starts `key_every` seconds after one that began anew does so again, and whoever joins late or has lost a file
   /// goes on there; 0: each does. Throws Error(kUsage) for what needs all frames:
-  /// sizes, key-frames, lossless files, the motion of the whole.
-  LiveEncoder(MeshSequence mesh, const EncodeOptions& options, double key_every = kKeyEvery);
+  /// sizes, key-frames, lossless files, massage, the motion of the whole.
+  LiveEncoder(MeshSequence mesh, const EncodeOptions& options, double key_every = kKeyEvery,
+              double box = 0);
 
   /// The next file of the stream: of frames x vertices x 3 floats, one frame at least, and for each attribute that moves, in their order,
   /// frames x elements x components. Elements at one vertex that moved alike and part begin a new mesh. Errors as of encode().
@@ -50,9 +55,14 @@ class LiveEncoder {
   MeshSequence sequence_of(FrameArray positions, std::vector<FrameArray> values) const;
   bool fits(const MeshSequence& sequence) const;
   void begin(const MeshSequence& sequence);
+  MeshPlan plan(const MeshSequence& sequence);
 
   MeshSequence mesh_;  ///< without frames; start_time: of the next file
   EncodeOptions options_;
+  double box_;
+  std::optional<ClipGoal> goal_;  ///< of all files; nothing before the first
+  std::shared_ptr<const MeshLayout> layout_;
+  std::shared_ptr<const std::vector<StoredAttribute>> stored_;
   Bytes base_;  ///< the file that continuations continue; empty: the next file brings the mesh
   double key_every_;
   /// Seconds of the files since the last one that began anew, this included.

@@ -2,9 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/live_queue.h"
 
-#include "codec/file/encoding_memory.h"
-#include "codec/file/target.h"
 #include "codec/parallel/thread_count.h"
+#include "codec/plan/encoding_memory.h"
 #include "codec/sequence/error.h"
 
 #include <algorithm>
@@ -19,18 +18,6 @@ namespace {
 
 /// Ends an encoding that nobody waits for.
 struct Stopped {};
-
-EncodeOptions in_box(EncodeOptions options, double box) {
-  if (!(std::isfinite(box) && box >= 0))
-    throw Error(ErrorKind::kUsage,
-                "the diagonal that percentages are of must be finite and not negative");
-  if (box == 0)
-    return options;
-  options.target = in_scene_units(options.target, box);
-  if (options.cap)
-    options.cap = in_scene_units(*options.cap, box);
-  return options;
-}
 
 uint32_t frames_of(const LiveOptions& live, double rate) {
   constexpr double kMost = 1e5;
@@ -47,9 +34,9 @@ uint32_t frames_of(const LiveOptions& live, double rate) {
 
 }  // namespace
 
-LiveQueue::LiveQueue(MeshSequence mesh, EncodeOptions options, const LiveOptions& live)
+LiveQueue::LiveQueue(MeshSequence mesh, const EncodeOptions& options, const LiveOptions& live)
     : mesh_(mesh),
-      encoder_(std::move(mesh), in_box(std::move(options), live.box), live.key_every),
+      encoder_(std::move(mesh), options, live.key_every, live.box),
       live_(live),
       frames_of_piece_(frames_of(live, mesh_.rate.value())) {
   if (mesh_.vertex_count == 0)

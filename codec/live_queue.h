@@ -50,7 +50,7 @@ struct LiveState {
 class LiveQueue {
  public:
   /// As LiveEncoder.
-  LiveQueue(MeshSequence mesh, EncodeOptions options, const LiveOptions& live);
+  LiveQueue(MeshSequence mesh, const EncodeOptions& options, const LiveOptions& live);
 
   /// Lets go of what was not taken.
   ~LiveQueue();

@@ -30,7 +30,7 @@ class Option:
     bounds: str = "{}"  #: least and most, of C++
     repeats: bool = False
     member: str = ""  #: of EncodeChoices, where it is not the name
-    sets: str = ""  #: the member of EncodingPlan that it sets as it is
+    sets: str = ""  #: the member of EncodeOptions that it sets as it is
     host_sets: str = ""  #: the same in the C interface alone, as the command does more
     inverted: bool = False  #: a flag that sets it to false
     field: str = ""  #: of anic_encode_options
@@ -70,25 +70,25 @@ for _option in TARGETS:
     _option.of_clip = True
 
 METHOD = [
-    Option("basis", "Kind of basis (default auto: the smallest file)", sets="options.basis", field="basis", of_clip=True,
+    Option("basis", "Kind of basis (default auto: the smallest file)", sets="basis", field="basis", of_clip=True,
            choice=Choice("BasisChoice", [("auto", "kAuto", "ANIC_CHOOSE_SMALLEST"), ("keyframes", "kKeyframes", "ANIC_CHOOSE_KEYFRAMES"),
                                          ("eigenshapes", "kEigenshapes", "ANIC_CHOOSE_EIGENSHAPES"),
                                          ("eigentrajectories", "kEigentrajectories", "ANIC_CHOOSE_EIGENTRAJECTORIES")])),
     Option("keyframes", "Number of key-frames (default: as few as do)", "K", number="uint32_t", start="0", bounds="{1, kMaxFrames}",
            field="keyframes"),
-    Option("keyframe-selection", "How key-frames are chosen (default pivot)", member="selection", sets="options.select", field="selection",
+    Option("keyframe-selection", "How key-frames are chosen (default pivot)", member="selection", sets="select", field="selection",
            choice=Choice("KeyframeMethod", [("gas", "kGas", "ANIC_SELECT_GAS"), ("pivot", "kPivot", "ANIC_SELECT_PIVOT"),
                                             ("uniform", "kUniform", "ANIC_SELECT_UNIFORM")]), start="kPivot"),
     Option("interpolation", "How frames come from key-frames: linear, msgi, which decoders may lack, or auto "
-           "(default linear, of --basis auto auto)", sets="options.interpolation", field="interpolation",
+           "(default linear, of --basis auto auto)", sets="interpolation", field="interpolation",
            choice=Choice("InterpolationChoice", [("linear", "kLinear", "ANIC_INTERPOLATE_LINEAR"), ("msgi", "kMsgi", "ANIC_INTERPOLATE_MSGI"),
                                                  ("auto", "kAuto", "ANIC_INTERPOLATE_BEST")], optional=True)),
     Option("keyframe-coder", "Coder of key-frames: native (default), draco, which decoders may lack, or the smaller (auto)",
-           sets="options.keyframe_poses", field="keyframe_coder",
+           sets="keyframe_poses", field="keyframe_coder",
            choice=Choice("KeyframePoses", [("native", "kNative", "ANIC_KEYFRAMES_NATIVE"), ("draco", "kDraco", "ANIC_KEYFRAMES_DRACO"),
                                            ("auto", "kAuto", "ANIC_KEYFRAMES_SMALLEST")])),
     Option("order", "Source order kept: that of vertices, none (free), of faces too (all); default auto: vertices, of glTF and FBX "
-           "scenes none", field="order", host_sets="options.order",
+           "scenes none", field="order", host_sets="order",
            choice=Choice("OrderChoice", [("auto", "kAuto", "ANIC_ORDER_VERTICES"), ("vertices", "kVertices", "ANIC_ORDER_VERTICES"),
                                          ("free", "kFree", "ANIC_ORDER_FREE"), ("all", "kAll", "ANIC_ORDER_ALL")],
                          host_type="OrderMode", declared="The part of the source's order that is kept. kAuto: that of the vertices, but nothing of scenes "
@@ -101,29 +101,29 @@ METHOD = [
                          "faces of the first frame.")),
     Option("split-objects", "Store each object of the input as a mesh, present only in the frames that show it (default: as parts of one "
            "mesh)", python=False),
-    Option("effort", "How long to search (default normal)", sets="options.effort", field="effort", of_clip=True,
+    Option("effort", "How long to search (default normal)", sets="effort", field="effort", of_clip=True,
            choice=Choice("Effort", [("fast", "kFast", "ANIC_EFFORT_FAST"), ("normal", "kNormal", "ANIC_EFFORT_NORMAL"),
                                     ("best", "kBest", "ANIC_EFFORT_BEST")], table="kEfforts"), start="kNormal"),
-    Option("smallest", "Make the file as small as can be, however long it takes to open (default: a balance)", sets="options.smallest",
+    Option("smallest", "Make the file as small as can be, however long it takes to open (default: a balance)", sets="smallest",
            flag="ANIC_ENCODE_SMALLEST"),
 ]
 
 MASSAGE = [
-    Option("massage", "Move vertices along their surface first (default off)", sets="mode", field="massage",
+    Option("massage", "Move vertices along their surface first (default off)", sets="massage.mode", field="massage",
            choice=Choice("MassageMode", [("off", "kOff", "ANIC_MASSAGE_OFF"), ("on", "kOn", "ANIC_MASSAGE_ON"),
                                          ("auto", "kAuto", "ANIC_MASSAGE_AUTO")])),
     Option("massage-strength", "Weight of shape against distance, between 0 and 1 (default 0.5)", "X", number="double",
-           start="MassageOptions().strength", sets="massage.strength", field="massage_strength"),
+           start="MassageOptions().strength", sets="massage.options.strength", field="massage_strength"),
     Option("massage-tolerance", "How far the surface may move anywhere (default: as far as it needs)", "LEN", field="massage_tolerance",
-           host_sets="massage.tolerance"),
+           host_sets="massage.options.tolerance"),
 ]
 
 ATTRIBUTES = [
-    Option("no-attributes", "Positions and faces alone", sets="options.attributes.keep", inverted=True, flag="ANIC_ENCODE_NO_ATTRIBUTES"),
+    Option("no-attributes", "Positions and faces alone", sets="attributes.keep", inverted=True, flag="ANIC_ENCODE_NO_ATTRIBUTES"),
     Option("uv-bits", "Texture coordinates in steps of 2^-N (default 12)", "N", number="uint32_t", start="AttributeOptions().uv_bits",
-           bounds="{1, 24}", sets="options.attributes.uv_bits", field="uv_bits", most=24),
+           bounds="{1, 24}", sets="attributes.uv_bits", field="uv_bits", most=24),
     Option("colour-bits", "Bits for each component of a colour (default 8)", "N", number="uint32_t", start="AttributeOptions().colour_bits",
-           bounds="{1, 16}", sets="options.attributes.colour_bits", field="colour_bits", most=16),
+           bounds="{1, 16}", sets="attributes.colour_bits", field="colour_bits", most=16),
     Option("attribute-error", "Largest error of colours, texture coordinates and other numbers that change, in their own units or per "
            "cent of their range (default: half a step of --colour-bits for colours, 0.1% for others)", "X", field="attribute_error"),
     Option("fields", "Numbers beside positions, colours and texture coordinates that are kept (default: all)", "NAME,...|none",
@@ -132,7 +132,7 @@ ATTRIBUTES = [
            "numbers stay as they are", "NAME=X|exact", repeats=True, member="field_errors", python=False),
     Option("field-unit", "Unit of its values, as K or m/s: shown by info", "NAME=TEXT", repeats=True, member="field_units", python=False),
     Option("store-normals", "Normals and tangents of the first frame as numbers, not only the hard edges: to within an angle in degrees, "
-           "as 0.05", "DEG", member="normal_error", field="normal_error", host_sets="options.attributes.normals"),
+           "as 0.05", "DEG", member="normal_error", field="normal_error", host_sets="attributes.normals"),
 ]
 
 METADATA = [
@@ -146,7 +146,7 @@ METADATA = [
            member="metadata", python=False),
     Option("meta-file", "The same, as a JSON object", "FILE.json", member="metadata_file", python=False),
     Option("root-motion", "Keep the motion of the whole along the ground, and its turn about the up axis, apart: a program can leave it "
-           "out and move the character itself", sets="options.root_motion", flag="ANIC_ENCODE_ROOT_MOTION"),
+           "out and move the character itself", sets="root_motion", flag="ANIC_ENCODE_ROOT_MOTION"),
     Option("loop", "The clip is meant to be repeated"),
 ]
 for _option in METADATA:

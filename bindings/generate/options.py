@@ -62,7 +62,7 @@ def _comment(text: str, column: int = 100) -> Iterator[str]:
 def _command_header() -> str:
     lines = [NOTICE.format("The options of encoding on the command line."),
              "#ifndef ANICODEC_TOOLS_INPUTS_ENCODE_CHOICES_H_\n#define ANICODEC_TOOLS_INPUTS_ENCODE_CHOICES_H_\n",
-             '#include "codec/encode.h"\n#include "codec/encode_massaged.h"\n#include "codec/sequence/mesh_sequence.h"\n'
+             '#include "codec/plan/encode_options.h"\n#include "codec/sequence/mesh_sequence.h"\n'
              '#include "tools/options/options.h"\n#include "tools/words/word_table.h"\n',
              "#include <cstdint>\n#include <optional>\n#include <string>\n#include <vector>\n",
              "// clang-format off\nnamespace anicodec::tools {\n"]
@@ -106,8 +106,8 @@ def _command_source() -> str:
              "// clang-format off\nnamespace anicodec::tools {\n", *_adder("add_encode_choices", False), *_adder("add_clip_choices", True),
              "void copy_choices(const EncodeChoices& c, EncodeOptions* options) {"]
     for option in _all():
-        if option.sets.startswith("options."):
-            lines.append(f"  options->{option.sets.removeprefix('options.')} = {'!' if option.inverted else ''}c.{option.variable};")
+        if option.sets:
+            lines.append(f"  options->{option.sets} = {'!' if option.inverted else ''}c.{option.variable};")
     return "\n".join([*lines, "}\n", "}  // namespace anicodec::tools\n"])
 
 
@@ -119,14 +119,14 @@ def _host_header(interface: Interface) -> str:
              '#include "codec/api/encoder_objects.h"\n#include "codec/api/host_values.h"\n', "#include <cstdint>\n#include <optional>\n",
              "// clang-format off\nnamespace anicodec {\n", "/// Flags that this version knows.",
              f"inline constexpr uint64_t kKnownFlags =\n    {known};\n", "/// Throws EncoderFailure(ANIC_E_ARGUMENT).",
-             "inline void set_choices(const anic_encode_options& host, EncodingPlan* plan) {"]
+             "inline void set_choices(const anic_encode_options& host, EncodeOptions* options) {"]
     for option in _all():
         sets = option.host_sets or option.sets
         if not sets:
             continue
         if option.flag:
             test = "==" if option.inverted else "!="
-            lines.append(f"  plan->{sets} = (host.flags & {option.flag}) {test} 0;")
+            lines.append(f"  options->{sets} = (host.flags & {option.flag}) {test} 0;")
         elif option.choice:
             constants = interface.enumeration(fields[option.field].base).constants
             kind = option.choice.host_type or option.choice.type
@@ -137,11 +137,11 @@ def _host_header(interface: Interface) -> str:
             listed = ", ".join(ours.get(c.name, "std::nullopt") for c in constants)
             assert [c.value for c in constants] == list(range(len(constants))), option.field
             lines += [f"  constexpr {'std::optional<' + kind + '>' if option.choice.optional else kind} {table}[] = {{\n      {listed}}};",
-                      f'  plan->{sets} = chosen(host.{option.field}, {table}, "{option.field}");']
+                      f'  options->{sets} = chosen(host.{option.field}, {table}, "{option.field}");']
         elif option.most:
-            lines.append(f'  plan->{sets} = within(host.{option.field}, plan->{sets}, {option.most}, "{option.field}");')
+            lines.append(f'  options->{sets} = within(host.{option.field}, options->{sets}, {option.most}, "{option.field}");')
         else:
-            lines.append(f'  if (amount(host.{option.field}, "{option.field}") > 0)\n    plan->{sets} = host.{option.field};')
+            lines.append(f'  if (amount(host.{option.field}, "{option.field}") > 0)\n    options->{sets} = host.{option.field};')
     return "\n".join([*lines, "}\n", "}  // namespace anicodec\n", "#endif  // ANICODEC_CODEC_API_HOST_CHOICES_H_\n"])
 
 

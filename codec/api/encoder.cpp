@@ -4,9 +4,8 @@
 // The functions of encode.h.
 #include "codec/api/encoder_objects.h"
 #include "codec/api/guarded.h"
-#include "codec/encode_scene.h"
-#include "codec/file/encoding_memory.h"
 #include "codec/parallel/thread_count.h"
+#include "codec/plan/encoding_memory.h"
 #include "codec/sequence/error.h"
 #include "codec/sequence/position_box.h"
 #include "sdk/api/versioned.h"
@@ -80,22 +79,12 @@ std::vector<SceneMesh> read_near(const anic_encoder& encoder, const Progress& pr
   return read_meshes(encoder, clip->origin, progress);
 }
 
-/// Encodes what was added by the entry points that the command uses.
-EncodeResult encode_meshes(const anic_encoder& encoder, const EncodingPlan& plan,
-                           const Progress& progress, MassageVerdict* verdict) {
-  MeshSequence clip = encoder.clip;
-  std::vector<SceneMesh> meshes = read_near(encoder, progress, &clip);
-  const bool several =
-      meshes.size() > 1 || meshes[0].sequence.frame_count < encoder.clip.frame_count;
-  if (!several) {
-    MeshSequence mesh = std::move(meshes[0].sequence);
-    set_timing(clip, &mesh);
-    return encode_massaged(std::move(mesh), plan.mode, plan.massage, plan.options, verdict,
-                           progress);
-  }
-  check_argument(plan.mode == MassageMode::kOff, "massage is for one mesh that is always there");
-  Scene scene{std::move(clip), std::move(meshes)};
-  return encode_scene(std::move(scene), plan.options, progress);
+/// The meshes that were added, with positions.
+Scene read_scene(const anic_encoder& encoder, const Progress& progress) {
+  Scene scene;
+  scene.clip = encoder.clip;
+  scene.meshes = read_near(encoder, progress, &scene.clip);
+  return scene;
 }
 
 void deliver(const Bytes& file, const anic_writer& writer) {
@@ -109,18 +98,18 @@ void run_encoding(anic_encoder* encoder, const anic_encode_options& host, anic_e
   if (encoder->clip.frame_count == 0)
     throw EncoderFailure(ANIC_E_STATE,
                          "the clip has no frame: it is a live one, for anic_begin_live()");
-  const EncodingPlan plan = encoding_plan(host);
-  check_argument(!plan.options.keyframes || *plan.options.keyframes <= encoder->clip.frame_count,
+  const EncodeOptions options = options_of(host);
+  check_argument(!options.keyframes || *options.keyframes <= encoder->clip.frame_count,
                  "more key-frames are asked for than the clip has frames");
   if (host.max_bytes > 0)
-    check_memory(*encoder, plan.options);
+    check_memory(*encoder, options);
   constexpr uint32_t kMostThreads = 1024;
   check_argument(host.threads <= kMostThreads, "at most 1024 threads are possible");
   encoder->result = {};
-  MassageVerdict verdict;
   const Progress progress = progress_of(host.progress);
-  with_threads(host.threads,
-               [&] { encoder->result = encode_meshes(*encoder, plan, progress, &verdict); });
+  with_threads(host.threads, [&] {
+    encoder->result = encode(read_scene(*encoder, progress), options, progress);
+  });
   EncodeResult& result = encoder->result;
   deliver(result.file, host.writer);
   out->size = result.file.size();
@@ -135,8 +124,8 @@ void run_encoding(anic_encoder* encoder, const anic_encode_options& host, anic_e
   out->diagonal = result.diagonal;
   out->components = result.components;
   out->basis = static_cast<anic_basis_kind>(result.kind);
-  out->massaged = verdict.change.has_value();
-  out->surface_error = verdict.change ? verdict.change->max : 0;
+  out->massaged = result.massage.change.has_value();
+  out->surface_error = result.massage.change ? result.massage.change->max : 0;
 }
 
 constexpr uint32_t kMostFrames = (1U << 24) - 1;

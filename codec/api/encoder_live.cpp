@@ -59,14 +59,12 @@ std::unique_ptr<anic_live> begun(const anic_encoder& encoder, const anic_encode_
                  "a live stream has no progress and no writer");
   constexpr uint32_t kMostThreads = 1024;
   check_argument(host.threads <= kMostThreads, "at most 1024 threads are possible");
-  EncodingPlan plan = encoding_plan(host);
-  check_argument(plan.mode == MassageMode::kOff,
-                 "massage needs all frames, which a live stream does not have");
+  const EncodeOptions options = options_of(host);
   MeshSequence mesh = encoder.meshes[0].mesh.sequence;
   set_timing(encoder.clip, &mesh);
   const size_t floats = size_t{3} * mesh.vertex_count;
   return std::unique_ptr<anic_live>(
-      new anic_live{{std::move(mesh), std::move(plan.options), live_options(live, host.threads)},
+      new anic_live{{std::move(mesh), options, live_options(live, host.threads)},
                     {},
                     std::vector<float>(floats)});
 }

@@ -6,7 +6,6 @@
 #define ANICODEC_CODEC_API_ENCODER_OBJECTS_H_
 
 #include "codec/encode.h"
-#include "codec/encode_massaged.h"
 #include "codec/sequence/scene.h"
 
 #include <anicodec/encode.h>
@@ -25,18 +24,8 @@ struct SourceMesh {
   anic_source_mesh host{};  ///< with strides; pointers to positions and callback alone are used
 };
 
-/// The host's options as the encoder takes them.
-struct EncodingPlan {
-  EncodeOptions options;
-  MassageMode mode = MassageMode::kOff;
-  MassageOptions massage;
-};
-
-/// Throws EncoderFailure(ANIC_E_ARGUMENT).
-EncodingPlan encoding_plan(const anic_encode_options& host);
-
-/// Gives timing, axes and units of the clip to a mesh that is there in all of it.
-void set_timing(const MeshSequence& clip, MeshSequence* mesh);
+/// The host's options as the encoder takes them. Throws EncoderFailure(ANIC_E_ARGUMENT).
+EncodeOptions options_of(const anic_encode_options& host);
 
 /// Copies a mesh but for its positions. `clip_frames`: 0 for a live one. Throws EncoderFailure.
 SourceMesh take_mesh(const anic_source_mesh& host, uint32_t clip_frames);

@@ -66,18 +66,17 @@ void set_method(const anic_encode_options& host, EncodeOptions& options) {
 
 }  // namespace
 
-EncodingPlan encoding_plan(const anic_encode_options& host) {
+EncodeOptions options_of(const anic_encode_options& host) {
   if (host.flags & ~kKnownFlags)
     refuse("there are unknown flags");
-  EncodingPlan plan;
-  set_choices(host, &plan);
-  set_goal(host, plan.options);
-  set_method(host, plan.options);
-  plan.options.most_bytes = host.max_bytes;
-  plan.options.encoder = "anicodec " + std::to_string(ANIC_VERSION_MAJOR) + "." +
-                         std::to_string(ANIC_VERSION_MINOR) + "." +
-                         std::to_string(ANIC_VERSION_PATCH);
-  return plan;
+  EncodeOptions options;
+  set_choices(host, &options);
+  set_goal(host, options);
+  set_method(host, options);
+  options.most_bytes = host.max_bytes;
+  options.encoder = "anicodec " + std::to_string(ANIC_VERSION_MAJOR) + "." +
+                    std::to_string(ANIC_VERSION_MINOR) + "." + std::to_string(ANIC_VERSION_PATCH);
+  return options;
 }
 
 }  // namespace anicodec

@@ -193,20 +193,6 @@ std::optional<AttributeBound> bound_of(const anic_source_attribute& host) {
 
 }  // namespace
 
-/// Timing, axes and units of the clip for a mesh that is there in all of it.
-void set_timing(const MeshSequence& clip, MeshSequence* mesh) {
-  mesh->name = clip.name;
-  mesh->rate = clip.rate;
-  mesh->start_time = clip.start_time;
-  mesh->times = clip.times;
-  mesh->up = clip.up;
-  mesh->metres_per_unit = clip.metres_per_unit;
-  mesh->origin = clip.origin;
-  mesh->loop = clip.loop;
-  mesh->events = clip.events;
-  mesh->clips = clip.clips;
-}
-
 SourceMesh take_mesh(const anic_source_mesh& host, uint32_t clip_frames) {
   if (clip_frames == 0 && (host.positions || host.read || host.runs))
     fail(ANIC_E_ARGUMENT,

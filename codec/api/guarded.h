@@ -5,7 +5,7 @@
 #ifndef ANICODEC_CODEC_API_GUARDED_H_
 #define ANICODEC_CODEC_API_GUARDED_H_
 
-#include "codec/file/encoding_memory.h"
+#include "codec/plan/encoding_memory.h"
 #include "codec/sequence/error.h"
 #include "sdk/api/versioned.h"
 

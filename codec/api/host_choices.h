@@ -27,39 +27,39 @@ inline constexpr uint64_t kKnownFlags =
     ANIC_ENCODE_SMALLEST;
 
 /// Throws EncoderFailure(ANIC_E_ARGUMENT).
-inline void set_choices(const anic_encode_options& host, EncodingPlan* plan) {
+inline void set_choices(const anic_encode_options& host, EncodeOptions* options) {
   constexpr BasisChoice kBasis[] = {
       BasisChoice::kAuto, BasisChoice::kKeyframes, BasisChoice::kEigenshapes, BasisChoice::kEigentrajectories};
-  plan->options.basis = chosen(host.basis, kBasis, "basis");
+  options->basis = chosen(host.basis, kBasis, "basis");
   constexpr KeyframeMethod kKeyframeSelection[] = {
       KeyframeMethod::kPivot, KeyframeMethod::kGas, KeyframeMethod::kUniform};
-  plan->options.select = chosen(host.selection, kKeyframeSelection, "selection");
+  options->select = chosen(host.selection, kKeyframeSelection, "selection");
   constexpr std::optional<InterpolationChoice> kInterpolation[] = {
       std::nullopt, InterpolationChoice::kLinear, InterpolationChoice::kMsgi, InterpolationChoice::kAuto};
-  plan->options.interpolation = chosen(host.interpolation, kInterpolation, "interpolation");
+  options->interpolation = chosen(host.interpolation, kInterpolation, "interpolation");
   constexpr KeyframePoses kKeyframeCoder[] = {
       KeyframePoses::kNative, KeyframePoses::kDraco, KeyframePoses::kAuto};
-  plan->options.keyframe_poses = chosen(host.keyframe_coder, kKeyframeCoder, "keyframe_coder");
+  options->keyframe_poses = chosen(host.keyframe_coder, kKeyframeCoder, "keyframe_coder");
   constexpr OrderMode kOrder[] = {
       OrderMode::kVertices, OrderMode::kFree, OrderMode::kAll};
-  plan->options.order = chosen(host.order, kOrder, "order");
+  options->order = chosen(host.order, kOrder, "order");
   constexpr Effort kEffort[] = {
       Effort::kNormal, Effort::kFast, Effort::kBest};
-  plan->options.effort = chosen(host.effort, kEffort, "effort");
-  plan->options.smallest = (host.flags & ANIC_ENCODE_SMALLEST) != 0;
+  options->effort = chosen(host.effort, kEffort, "effort");
+  options->smallest = (host.flags & ANIC_ENCODE_SMALLEST) != 0;
   constexpr MassageMode kMassage[] = {
       MassageMode::kOff, MassageMode::kOn, MassageMode::kAuto};
-  plan->mode = chosen(host.massage, kMassage, "massage");
+  options->massage.mode = chosen(host.massage, kMassage, "massage");
   if (amount(host.massage_strength, "massage_strength") > 0)
-    plan->massage.strength = host.massage_strength;
+    options->massage.options.strength = host.massage_strength;
   if (amount(host.massage_tolerance, "massage_tolerance") > 0)
-    plan->massage.tolerance = host.massage_tolerance;
-  plan->options.attributes.keep = (host.flags & ANIC_ENCODE_NO_ATTRIBUTES) == 0;
-  plan->options.attributes.uv_bits = within(host.uv_bits, plan->options.attributes.uv_bits, 24, "uv_bits");
-  plan->options.attributes.colour_bits = within(host.colour_bits, plan->options.attributes.colour_bits, 16, "colour_bits");
+    options->massage.options.tolerance = host.massage_tolerance;
+  options->attributes.keep = (host.flags & ANIC_ENCODE_NO_ATTRIBUTES) == 0;
+  options->attributes.uv_bits = within(host.uv_bits, options->attributes.uv_bits, 24, "uv_bits");
+  options->attributes.colour_bits = within(host.colour_bits, options->attributes.colour_bits, 16, "colour_bits");
   if (amount(host.normal_error, "normal_error") > 0)
-    plan->options.attributes.normals = host.normal_error;
-  plan->options.root_motion = (host.flags & ANIC_ENCODE_ROOT_MOTION) != 0;
+    options->attributes.normals = host.normal_error;
+  options->root_motion = (host.flags & ANIC_ENCODE_ROOT_MOTION) != 0;
 }
 
 }  // namespace anicodec

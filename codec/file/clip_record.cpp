@@ -6,7 +6,7 @@
 
 namespace anicodec {
 
-ClipsRecord clips_record(const MeshSequence& sequence, const EncodeOptions& options,
+ClipsRecord clips_record(const MeshSequence& sequence, const FileOptions& options,
                          const std::vector<ClipGoal>& goals) {
   ClipsRecord record;
   record.encoder = options.encoder;
@@ -36,8 +36,8 @@ ClipsRecord clips_record(const MeshSequence& sequence, const EncodeOptions& opti
       clip.surface_error = options.surface_change->max;
       clip.surface_error_mean = options.surface_change->mean;
     }
-    clip.asked = goal.target.metric;
-    clip.asked_value = goal.target.value;
+    clip.asked = goal.bound.metric;
+    clip.asked_value = goal.bound.value;
     clip.diagonal = goal.diagonal;
   }
   record.place();

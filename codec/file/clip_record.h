@@ -3,7 +3,7 @@
 #ifndef ANICODEC_CODEC_FILE_CLIP_RECORD_H_
 #define ANICODEC_CODEC_FILE_CLIP_RECORD_H_
 
-#include "codec/file/encode_options.h"
+#include "codec/plan/encode_options.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "format/records.h"
 
@@ -13,7 +13,7 @@ namespace anicodec {
 
 /// The metadata of a file and its clips without the errors, which are yet to be measured: names,
 /// clocks, coordinates, and what was asked for. `goals`: of each clip.
-ClipsRecord clips_record(const MeshSequence& sequence, const EncodeOptions& options,
+ClipsRecord clips_record(const MeshSequence& sequence, const FileOptions& options,
                          const std::vector<ClipGoal>& goals);
 
 }  // namespace anicodec

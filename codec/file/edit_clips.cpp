@@ -126,10 +126,10 @@ class Edited {
     out.add("CLIP", kNoMesh, kNoSegment, record_.write());
     if (limits_.root_frames > 0)
       out.add("ROOT", kNoMesh, kNoSegment, root());
-    add_copied(base_, kNoMesh, kNoMesh, out);
+    add_copied(base_, kNoMesh, out);
     for (uint32_t i = 0; i < segments_.size(); ++i)
       add_chunks(segments_[i], i, ChunkPlace::kBeforeMeshes, out);
-    add_mesh(base_, 0, out);
+    add_mesh(base_, out);
     for (uint32_t i = 0; i < segments_.size(); ++i) {
       const Moved& s = segments_[i];
       // A segment that leans on the pose of another file brings it along.

@@ -151,11 +151,10 @@ ClipsRecord joined_record(const std::vector<OpenPart>& parts) {
   return joined;
 }
 
-/// Adds a chunk of a segment under its new number, to a mesh.
-void add_chunk(const OpenPart& part, const Chunk& chunk, uint16_t mesh, uint32_t segment,
-               ContainerWriter& file) {
+/// Adds a chunk of a segment under its new number.
+void add_chunk(const OpenPart& part, const Chunk& chunk, uint32_t segment, ContainerWriter& file) {
   if (goes_along(chunk))
-    return file.add(chunk, mesh, segment, copy(part.payload(chunk)));
+    return file.add(chunk, 0, segment, copy(part.payload(chunk)));
   if (chunk.required)
     fail(part.part, ErrorKind::kUnsupported,
          "a chunk " + chunk_name(chunk.type) + " cannot be joined");
@@ -167,33 +166,25 @@ Failure verified(ByteView file) {
   return failure.ok() ? clip.check_hashes() : failure;
 }
 
-/// An opened part, and where it goes.
-struct PlacedMesh {
-  const OpenPart* part;
-  uint16_t mesh;
-  uint32_t first_frame;
-};
-
-/// Errors of attributes over all parts of each mesh.
-Vector<AttributeError> joined_errors(const std::vector<PlacedMesh>& parts) {
+/// Errors of attributes over all parts.
+Vector<AttributeError> joined_errors(const std::vector<OpenPart>& parts) {
   struct Sum {
     AttributeError error;
     double squared = 0, frames = 0;
   };
 
-  std::map<std::pair<uint16_t, uint16_t>, Sum> sums;
-  for (const PlacedMesh& placed : parts) {
-    for (const AttributeError& e : placed.part->clip().attribute_errors) {
-      Sum& sum = sums[{placed.mesh, e.attribute}];
-      sum.error.mesh = placed.mesh;
+  std::map<uint16_t, Sum> sums;
+  for (const OpenPart& part : parts) {
+    for (const AttributeError& e : part.clip().attribute_errors) {
+      Sum& sum = sums[e.attribute];
       sum.error.attribute = e.attribute;
       sum.error.max_error = std::max(sum.error.max_error, e.max_error);
-      sum.squared += e.rmse * e.rmse * placed.part->limits.frames;
-      sum.frames += placed.part->limits.frames;
+      sum.squared += e.rmse * e.rmse * part.limits.frames;
+      sum.frames += part.limits.frames;
     }
   }
   Vector<AttributeError> errors;
-  for (auto& [key, sum] : sums) {
+  for (auto& [attribute, sum] : sums) {
     sum.error.rmse = std::sqrt(sum.squared / sum.frames);
     errors.push_back(sum.error);
   }
@@ -201,63 +192,49 @@ Vector<AttributeError> joined_errors(const std::vector<PlacedMesh>& parts) {
 }
 
 /// A segment of a part.
-struct PlacedSegment {
-  const PlacedMesh* placed;
-  Limits::Segment sizes;  ///< with mesh and frames of the joined clip
+struct JoinedSegment {
+  const OpenPart* part;
+  Limits::Segment sizes;  ///< with frames of the joined clip
   std::vector<const Chunk*> chunks;
 };
 
-/// One file of parts: mesh, maps and pose of the first one of each mesh, all segments in the order
-/// of time under new numbers.
-Bytes join(const std::vector<PlacedMesh>& parts, uint32_t frames, ClipsRecord record) {
+/// One file of parts in the order of time: mesh, maps and pose of the first one, all segments under new numbers.
+Bytes join(const std::vector<OpenPart>& parts, ClipsRecord record) {
   record.clips[0].attribute_errors = joined_errors(parts);
   Limits limits;
-  limits.frames = frames;
-  std::vector<const OpenPart*> meshes;
-  std::vector<PlacedSegment> segments;
-  for (const PlacedMesh& placed : parts) {
-    const OpenPart& part = *placed.part;
-    if (placed.mesh == meshes.size()) {
-      meshes.push_back(&part);
-      limits.meshes.push_back(part.limits.meshes[0]);
-    } else {
-      check_same_mesh(*meshes[placed.mesh], part);
-    }
+  limits.meshes.push_back(parts[0].limits.meshes[0]);
+  std::vector<JoinedSegment> segments;
+  for (const OpenPart& part : parts) {
     const size_t first = segments.size();
     for (Limits::Segment sizes : part.limits.segments) {
-      sizes.mesh = placed.mesh;
-      sizes.first_frame += placed.first_frame;
-      segments.push_back({&placed, sizes, {}});
+      sizes.first_frame += limits.frames;
+      segments.push_back({&part, sizes, {}});
     }
     for (const Chunk& chunk : part.reader.chunks()) {
       if (chunk.segment < part.limits.segments.size())
         segments[first + chunk.segment].chunks.push_back(&chunk);
     }
+    limits.frames += part.limits.frames;
   }
-  std::stable_sort(segments.begin(), segments.end(),
-                   [](const PlacedSegment& a, const PlacedSegment& b) {
-                     return std::pair(a.sizes.first_frame, a.sizes.mesh) <
-                            std::pair(b.sizes.first_frame, b.sizes.mesh);
-                   });
-  for (const PlacedSegment& segment : segments)
+  std::ranges::stable_sort(segments, {},
+                           [](const JoinedSegment& segment) { return segment.sizes.first_frame; });
+  for (const JoinedSegment& segment : segments)
     limits.segments.push_back(segment.sizes);
 
   ContainerWriter file;
   file.add("LIMI", kNoMesh, kNoSegment, limits.write());
   file.add("CLIP", kNoMesh, kNoSegment, record.write());
-  add_copied(*meshes[0], kNoMesh, kNoMesh, file);
+  add_copied(parts[0], kNoMesh, file);
   const auto add_segments = [&](ChunkPlace place) {
     for (uint32_t s = 0; s < segments.size(); ++s) {
-      const PlacedMesh& placed = *segments[s].placed;
       for (const Chunk* chunk : segments[s].chunks) {
         if (place_of(*chunk) == place)
-          add_chunk(*placed.part, *chunk, placed.mesh, s, file);
+          add_chunk(*segments[s].part, *chunk, s, file);
       }
     }
   };
   add_segments(ChunkPlace::kBeforeMeshes);
-  for (uint16_t m = 0; m < meshes.size(); ++m)
-    add_mesh(*meshes[m], m, file);
+  add_mesh(parts[0], file);
   add_segments(ChunkPlace::kWithSegment);
   add_segments(ChunkPlace::kBehindSegments);
   Bytes bytes = file.finish(limits.features());
@@ -265,8 +242,8 @@ Bytes join(const std::vector<PlacedMesh>& parts, uint32_t frames, ClipsRecord re
   if (failure.ok())
     return bytes;
   // The payloads are copied: a part that is not valid shows only now.
-  for (const PlacedMesh& placed : parts)
-    placed.part->check(verified(placed.part->part.file));
+  for (const OpenPart& part : parts)
+    part.check(verified(part.part.file));
   throw Error(ErrorKind::kInternal,
               std::string("the joined file is not valid: ") + status_string(failure.status));
 }
@@ -277,7 +254,6 @@ Bytes join_clips(const std::vector<ClipPart>& sources) {
   if (sources.empty())
     throw Error(ErrorKind::kUsage, "there is no part to join");
   std::vector<OpenPart> parts;
-  std::vector<PlacedMesh> placed;
   for (const ClipPart& source : sources)
     parts.emplace_back(source);
   std::stable_sort(parts.begin(), parts.end(), [](const OpenPart& a, const OpenPart& b) {
@@ -292,20 +268,9 @@ Bytes join_clips(const std::vector<ClipPart>& sources) {
     }
     if (part.limits.frames > kMaxFrames - frames)
       fail(part.part, ErrorKind::kInput, "together there are more than 2^24 - 1 frames");
-    placed.push_back({&part, 0, frames});
     frames += part.limits.frames;
   }
-  return join(placed, frames, joined_record(parts));
-}
-
-Bytes join_meshes(const std::vector<PlacedPart>& sources, uint32_t frames,
-                  const ClipsRecord& record) {
-  std::vector<OpenPart> parts;
-  std::vector<PlacedMesh> placed;
-  parts.reserve(sources.size());
-  for (const PlacedPart& source : sources)
-    placed.push_back({&parts.emplace_back(source.part), source.mesh, source.first_frame});
-  return join(placed, frames, record);
+  return join(parts, joined_record(parts));
 }
 
 }  // namespace anicodec

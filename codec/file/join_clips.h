@@ -25,18 +25,6 @@ struct ClipPart {
 /// kCorrupt for a damaged part, kInput naming the first part that does not fit.
 Bytes join_clips(const std::vector<ClipPart>& parts);
 
-/// A clip of one mesh, and where it goes.
-struct PlacedPart {
-  ClipPart part;
-  uint16_t mesh = 0;         ///< parts of one mesh are encoded with EncodeOptions::part
-  uint32_t first_frame = 0;  ///< of the joined clip
-};
-
-/// Makes one file of clips of one mesh each, of several meshes: each is there in the frames of its
-/// parts alone. Meshes are numbered from 0, none left out. `record` describes the clips of the
-/// file; its promised errors must be true. Checks and errors as of join_clips().
-Bytes join_meshes(const std::vector<PlacedPart>& parts, uint32_t frames, const ClipsRecord& record);
-
 }  // namespace anicodec
 
 #endif  // ANICODEC_CODEC_FILE_JOIN_CLIPS_H_

@@ -52,26 +52,26 @@ inline Bytes copy(ByteView view) {
   return Bytes(view.data, view.data + view.size);
 }
 
-/// Adds the chunks marked as copied that a part has for a mesh, or for the file as a whole (kNoMesh), under the
-/// number `as` of the mesh. Part: has `reader` and payload().
+/// Adds the chunks marked as copied that a part has for a mesh, or for the file as a whole (kNoMesh). Part: has `reader`
+/// and payload().
 template <class Part>
-void add_copied(const Part& part, uint16_t mesh, uint16_t as, ContainerWriter& file) {
+void add_copied(const Part& part, uint16_t mesh, ContainerWriter& file) {
   for (const Chunk& chunk : part.reader.chunks()) {
     if (chunk.copied && chunk.mesh == mesh && chunk.segment == kNoSegment)
-      file.add(chunk, as, kNoSegment,
+      file.add(chunk, mesh, kNoSegment,
                Bytes(part.payload(chunk).data, part.payload(chunk).data + chunk.size));
   }
 }
 
-/// Adds the chunks of the only mesh of a part as a whole, under the number `as`.
+/// Adds the chunks of the only mesh of a part as a whole.
 template <class Part>
-void add_mesh(const Part& part, uint16_t as, ContainerWriter& file) {
+void add_mesh(const Part& part, ContainerWriter& file) {
   for (const ChunkKind& kind : kChunkKinds) {
     const Chunk* chunk = is_of_meshes(kind) ? part.reader.find(kind.name, 0) : nullptr;
     if (chunk)
-      file.add(*chunk, as, kNoSegment, copy(part.payload(*chunk)));
+      file.add(*chunk, 0, kNoSegment, copy(part.payload(*chunk)));
   }
-  add_copied(part, 0, as, file);
+  add_copied(part, 0, file);
 }
 
 }  // namespace anicodec

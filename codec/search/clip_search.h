@@ -4,7 +4,7 @@
 #define ANICODEC_CODEC_SEARCH_CLIP_SEARCH_H_
 
 #include "codec/connectivity/attribute_encode.h"
-#include "codec/file/encode_options.h"
+#include "codec/plan/encode_options.h"
 #include "codec/search/encoder_input.h"
 #include "codec/search/moving_attributes.h"
 #include "codec/search/rate_control.h"
@@ -20,22 +20,25 @@ struct CodedClip {
   Solution positions;
   MovingAttributes attributes;
 
-  /// The file. Errors of attributes are those of the record, 0 where it has none.
-  Bytes file(ClipsRecord record, const MeshLayout& layout) const;
+  /// In the order of the file.
+  std::vector<const EncodedSegment*> segments() const;
 };
 
-/// Searches positions and moving attributes for a target of the whole file: where that is a size,
+/// Adds room for the errors of attributes that move, which are yet to be measured.
+void make_room(const std::vector<AttributeResult>& attributes, ClipsRecord* record);
+
+/// Searches positions and moving attributes for a bound of the whole file: where that is a size,
 /// positions get what the attributes leave.
 class ClipSearch {
  public:
   /// All references must outlive this object.
   ClipSearch(const EncoderInput& input, const std::vector<StoredAttribute>& stored,
-             const EncodeOptions& options, const Target& target)
+             const SearchOptions& options, const Bound& bound)
       : input_(input),
         stored_(stored),
         options_(options),
-        target_(target),
-        control_(input, options, target) {}
+        bound_(bound),
+        control_(input, options, bound) {}
 
   /// `record`: for the size of the file. Throws Error(kUsage) when the target cannot be reached.
   CodedClip run(const ClipsRecord& record);
@@ -48,8 +51,8 @@ class ClipSearch {
  private:
   const EncoderInput& input_;
   const std::vector<StoredAttribute>& stored_;
-  const EncodeOptions& options_;
-  Target target_;
+  const SearchOptions& options_;
+  Bound bound_;
   RateControl control_;
 };
 

@@ -66,6 +66,7 @@ EncoderInput::EncoderInput(MeshSequence source, const std::optional<FrameRun>& p
     for (uint32_t v : layout.coded_source)
       to = std::copy_n(frame.begin() + ptrdiff_t{3} * v, 3, to);
   }
+  first_frame = kept.first;
   sequence.frame_count = kept.count;
   coded = std::move(sequence.positions);
   coded.resize(3 * n * sequence.frame_count);
@@ -81,6 +82,7 @@ EncoderInput::EncoderInput(const EncoderInput& all, size_t number)
       largest_coordinate(clips[0].largest_coordinate),
       first_pose(all.first_pose),
       pose(all.pose),
+      described(all.described),
       without(all.without),
       memory(all.memory),
       progress(all.progress) {
@@ -101,6 +103,7 @@ EncoderInput::EncoderInput(const EncoderInput& clip_input, const Topology& surfa
       coded(std::move(trajectories)),
       clips(clip_input.clips),
       copies(surface.coded_vertices, 0),
+      described(clip_input.described),
       memory(clip_input.memory),
       progress(clip_input.progress) {
   layout.topology = surface;
@@ -170,14 +173,14 @@ Vector<uint32_t> EncoderInput::runs(uint32_t first, uint32_t count) const {
 }
 
 void EncoderInput::bound_clips(const std::vector<ClipGoal>& goals) {
-  const ErrorMetric metric = goals[0].target.metric;
+  const ErrorMetric metric = goals[0].bound.metric;
   const bool bounds_mean = metric == ErrorMetric::kKg || metric == ErrorMetric::kRmse;
-  const double mean = kg_reference / sequence.frame_count, most = largest_target(goals).value;
+  const double mean = kg_reference / sequence.frame_count, most = largest_bound(goals).value;
   const bool differ =
-      std::ranges::any_of(goals, [&](const ClipGoal& goal) { return goal.target.value != most; });
+      std::ranges::any_of(goals, [&](const ClipGoal& goal) { return goal.bound.value != most; });
   for (size_t c = 0; c < clips.size(); ++c) {
     InputClip& clip = clips[c];
-    const double own = clip.kg_reference / clip.frames.count, value = goals[c].target.value;
+    const double own = clip.kg_reference / clip.frames.count, value = goals[c].bound.value;
     if (bounds_mean || differ)
       clip.tolerance =
           metric == ErrorMetric::kKg ? (own > 0 ? std::sqrt(own / mean) : 1) : value / most;

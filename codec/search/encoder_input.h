@@ -4,8 +4,8 @@
 #define ANICODEC_CODEC_SEARCH_ENCODER_INPUT_H_
 
 #include "codec/connectivity/mesh_layout.h"
-#include "codec/file/encoding_memory.h"
-#include "codec/file/target.h"
+#include "codec/plan/encoding_memory.h"
+#include "codec/plan/target.h"
 #include "codec/search/search_progress.h"
 #include "codec/segment/encoded_segment.h"
 #include "codec/sequence/frame_view.h"
@@ -105,7 +105,8 @@ struct EncoderInput {
   /// `first_pose` around its centre, which goes to `origin`.
   Eigen::MatrixXd centred_first_pose(Eigen::Vector3d* origin) const;
 
-  MeshSequence sequence;  ///< the source without its positions
+  MeshSequence sequence;     ///< the source without its positions
+  uint32_t first_frame = 0;  ///< of the source, that a part begins with
   MeshLayout layout;
   FrameArray coded;  ///< frames x coded vertices x 3
   /// The coded positions with the motion of the whole, if it was taken out. Else empty.
@@ -119,7 +120,9 @@ struct EncoderInput {
 
   Learning learning;  ///< of segments of positions that lean on the pose that is given
 
-  std::vector<std::string> without;  ///< EncodeOptions::without
+  FileOptions described;  ///< for the size of trial files
+
+  std::vector<std::string> without;  ///< CodingOptions::without
 
   std::shared_ptr<MemoryBudget> memory;  ///< null: no limit
 

@@ -3,7 +3,7 @@
 #ifndef ANICODEC_CODEC_SEARCH_LINEAR_STEPS_H_
 #define ANICODEC_CODEC_SEARCH_LINEAR_STEPS_H_
 
-#include "codec/file/encode_options.h"
+#include "codec/plan/encode_options.h"
 #include "codec/search/linear_choice.h"
 #include "format/coding/time_weights.h"
 

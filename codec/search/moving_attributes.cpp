@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/search/moving_attributes.h"
 
-#include "codec/file/encoding_memory.h"
+#include "codec/plan/encoding_memory.h"
 #include "codec/search/rate_control.h"
 #include "codec/segment/reference_pose_encode.h"
 #include "codec/sequence/error.h"
@@ -36,12 +36,11 @@ struct Offsets {
 
 class OffsetReader {
  public:
-  OffsetReader(const EncoderInput& input, const StoredAttribute& stored, uint32_t first_frame)
+  OffsetReader(const EncoderInput& input, const StoredAttribute& stored)
       : input_(input),
         stored_(stored),
         attribute_(input.sequence.attributes[stored.source]),
-        copies_(stored.surface.coded_vertices, 0),
-        first_frame_(first_frame) {
+        copies_(stored.surface.coded_vertices, 0) {
     for (uint32_t entry : stored.surface.vertex_coded)
       ++copies_[entry];
   }
@@ -56,7 +55,8 @@ class OffsetReader {
     // All frames of the clip decide, so that parts of it agree.
     std::vector<float> other_frame(row);
     for (size_t f = 0; f < attribute_.frames; ++f) {
-      const bool is_own = f >= first_frame_ && f - first_frame_ < input_.sequence.frame_count;
+      const bool is_own =
+          f >= input_.first_frame && f - input_.first_frame < input_.sequence.frame_count;
       const float* values = attribute_.values.data() + f * entries.size() * n + first_component;
       const float* at_rest = stored_.rest.data() + first_component;
       std::fill(sums.begin(), sums.end(), 0.0);
@@ -68,7 +68,8 @@ class OffsetReader {
           sums[size_t{3} * entries[e] + c] += moved[3 * e + c];
         }
       }
-      float* means = is_own ? result.frames.data() + row * (f - first_frame_) : other_frame.data();
+      float* means =
+          is_own ? result.frames.data() + row * (f - input_.first_frame) : other_frame.data();
       for (size_t i = 0; i < row; ++i)
         means[i] = static_cast<float>(sums[i] / copies_[i / 3]);
       for (size_t e = 0; e < entries.size(); ++e) {
@@ -99,7 +100,6 @@ class OffsetReader {
   const StoredAttribute& stored_;
   const Attribute& attribute_;
   std::vector<uint32_t> copies_;  ///< elements of each entry
-  const uint32_t first_frame_;
 };
 
 /// The pose of a mesh as that of an attribute's entries.
@@ -112,17 +112,16 @@ std::shared_ptr<const EncodedPose> pose_of_entries(const EncodedPose& pose,
 }
 
 std::vector<CodedPart> encode_offsets(const EncoderInput& input, const StoredAttribute& stored,
-                                      FrameArray frames, double bound, const EncodeOptions& options,
+                                      FrameArray frames, double most, const SearchOptions& options,
                                       const std::shared_ptr<const EncodedPose>& pose) {
   EncoderInput trajectories(input, stored.surface, std::move(frames));
   trajectories.pose = pose_of_entries(*pose, input.layout, stored);
-  EncodeOptions attribute_options = options;
+  SearchOptions attribute_options = options;
   attribute_options.basis = BasisChoice::kEigentrajectories;
   attribute_options.keyframes.reset();
-  attribute_options.cap.reset();
-  const Target target{ErrorMetric::kMaxError, bound, false};
-  trajectories.bound_clips(std::vector<ClipGoal>(trajectories.clips.size(), {target, {}, 0}));
-  std::vector<CodedPart> parts = RateControl(trajectories, attribute_options, target).solve().parts;
+  const Bound bound{ErrorMetric::kMaxError, most};
+  trajectories.bound_clips(std::vector<ClipGoal>(trajectories.clips.size(), {bound, {}, 0}));
+  std::vector<CodedPart> parts = RateControl(trajectories, attribute_options, bound).solve().parts;
   for (CodedPart& part : parts)
     part.encoded.reference = pose;
   return parts;
@@ -132,10 +131,9 @@ std::vector<CodedPart> encode_offsets(const EncoderInput& input, const StoredAtt
 
 MovingAttributes encode_moving_attributes(const EncoderInput& input,
                                           const std::vector<StoredAttribute>& stored,
-                                          const EncodeOptions& options,
+                                          const SearchOptions& options,
                                           std::shared_ptr<const EncodedPose> pose) {
   MovingAttributes out;
-  const uint32_t first_frame = options.part ? options.part->first : 0;
   for (const StoredAttribute& s : stored) {
     const Attribute& attribute = input.sequence.attributes[s.source];
     if (!s.moves)
@@ -145,7 +143,7 @@ MovingAttributes encode_moving_attributes(const EncoderInput& input,
     result.name = attribute.name;
     result.number = s.number;
     result.asked = s.bound;
-    const OffsetReader reader(input, s, first_frame);
+    const OffsetReader reader(input, s);
     const double rounding = kRounding * reader.largest_value();
     std::vector<CodedPart> parts;
     for (uint32_t first = 0; first < attribute.components; first += 3) {

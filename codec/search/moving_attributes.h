@@ -4,7 +4,7 @@
 #define ANICODEC_CODEC_SEARCH_MOVING_ATTRIBUTES_H_
 
 #include "codec/connectivity/attribute_encode.h"
-#include "codec/file/encode_options.h"
+#include "codec/plan/encode_result.h"
 #include "codec/search/coded_part.h"
 #include "codec/search/encoder_input.h"
 
@@ -25,7 +25,7 @@ struct MovingAttributes {
 /// that stay within the error have no segment. Throws Error(kUsage) for an error that cannot be reached.
 MovingAttributes encode_moving_attributes(const EncoderInput& input,
                                           const std::vector<StoredAttribute>& stored,
-                                          const EncodeOptions& options,
+                                          const SearchOptions& options,
                                           std::shared_ptr<const EncodedPose> pose);
 
 }  // namespace anicodec

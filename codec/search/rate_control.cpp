@@ -51,7 +51,7 @@ Solution RateControl::solve() {
     search_.keep_better(clip_by_clip(), &best);
   if (!best)
     fail();
-  if (!is_size(target_)) {  // nobody asks again
+  if (!is_size(bound_.metric)) {  // nobody asks again
     linear_coders_.clear();
     keyframe_coders_.clear();
     analysis_.reset();
@@ -68,7 +68,7 @@ std::optional<Solution> RateControl::clip_by_clip() {
   std::vector<CodedPart> parts;
   for (size_t c = 0; c < input_.clips.size(); ++c) {
     const EncoderInput clip(input_, c);
-    Target own = target_;
+    Bound own = bound_;
     if (own.metric != ErrorMetric::kKg)
       own.value *= input_.clips[c].tolerance;
     for (CodedPart& part : RateControl(clip, options_, own).solve().parts) {
@@ -104,7 +104,7 @@ std::optional<Solution> RateControl::of_all_clips() {
 }
 
 Solution RateControl::solve_within(double bytes) {
-  target_ = {ErrorMetric::kSize, bytes, false};
+  bound_ = {ErrorMetric::kSize, bytes};
   search_.ask_size(bytes);
   return solve();
 }
@@ -160,9 +160,9 @@ void RateControl::try_msgi(Solution* best) {
     return note(error.what());
   }
   const bool wins =
-      solution && (is_size(target_) ? input_.rmse(solution->squared_error()) < kClearly * rmse
-                                    : static_cast<double>(solution->bytes) <
-                                          kClearly * static_cast<double>(best->bytes));
+      solution && (is_size(bound_.metric) ? input_.rmse(solution->squared_error()) < kClearly * rmse
+                                          : static_cast<double>(solution->bytes) <
+                                                kClearly * static_cast<double>(best->bytes));
   if (wins)
     *best = std::move(*solution);
   else
@@ -183,7 +183,7 @@ std::optional<Solution> RateControl::by_keyframes_alone() {
     add_keyframe_coder(Reconstruction::kMsgi);
   std::optional<Solution> best;
   for (std::unique_ptr<KeyframeCoder>& coder : keyframe_coders_) {
-    if (target_.metric != ErrorMetric::kNone) {
+    if (bound_.metric != ErrorMetric::kNone) {
       offer(*coder, &best);
       continue;
     }
@@ -302,7 +302,7 @@ bool RateControl::beats_keyframes(const Solution& solution) const {
 
 void RateControl::fail() const {
   std::string text = "the target cannot be reached";
-  if (is_size(target_)) {
+  if (is_size(bound_.metric)) {
     auto smallest = std::ranges::min_element(trials(), {}, &Trial::bytes);
     if (smallest != trials().end())
       text += "; the smallest file found takes " + std::to_string(smallest->bytes) + " bytes";

@@ -3,7 +3,7 @@
 #ifndef ANICODEC_CODEC_SEARCH_RATE_CONTROL_H_
 #define ANICODEC_CODEC_SEARCH_RATE_CONTROL_H_
 
-#include "codec/file/encode_options.h"
+#include "codec/plan/encode_options.h"
 #include "codec/search/encoder_input.h"
 #include "codec/search/keyframe_coder.h"
 #include "codec/search/linear_coder.h"
@@ -22,8 +22,8 @@ namespace anicodec {
 class RateControl {
  public:
   /// `input` and `options` must outlive this object.
-  RateControl(const EncoderInput& input, const EncodeOptions& options, const Target& target)
-      : input_(input), options_(options), target_(target), search_(input, options, target) {}
+  RateControl(const EncoderInput& input, const SearchOptions& options, const Bound& bound)
+      : input_(input), options_(options), bound_(bound), search_(input, options, bound) {}
 
   /// Throws Error(kUsage) when the target cannot be reached; the text says what can.
   Solution solve();
@@ -56,8 +56,8 @@ class RateControl {
   [[noreturn]] void fail(KeyframeCoder& keyframes) const;
 
   const EncoderInput& input_;
-  const EncodeOptions& options_;
-  Target target_;
+  const SearchOptions& options_;
+  Bound bound_;
   TargetSearch search_;
   std::optional<LinearAnalysis> analysis_;
   LinearCoders linear_coders_;  ///< of the analysis

@@ -120,7 +120,7 @@ std::optional<Solution> TargetSearch::at_motion_error(SegmentCoder& coder, doubl
     std::optional<Solution> trial = at_rmse(coder, rmse);
     if (!trial)
       break;
-    const double error = motion_error(target_.metric, trial->parts, input_);
+    const double error = motion_error(bound_.metric, trial->parts, input_);
     const bool kept = error <= bound, close = error >= kClose * bound;
     if (kept && (!best || trial->price() < best->price()))
       best = std::move(trial);
@@ -132,12 +132,12 @@ std::optional<Solution> TargetSearch::at_motion_error(SegmentCoder& coder, doubl
 }
 
 bool TargetSearch::keeps_motion(const Solution& solution) const {
-  return !is_motion(target_.metric) ||
-         motion_error(target_.metric, solution.parts, input_) <= target_.value;
+  return !is_motion(bound_.metric) ||
+         motion_error(bound_.metric, solution.parts, input_) <= bound_.value;
 }
 
 double TargetSearch::bytes_asked() const {
-  return *allowed_bytes(target_, input_.sequence.vertex_count, input_.sequence.frame_count);
+  return *allowed_bytes(bound_, input_.sequence.vertex_count, input_.sequence.frame_count);
 }
 
 /// By quick trials, which take somewhat more bytes than what at_rmse() ends with.
@@ -221,12 +221,12 @@ std::optional<Solution> TargetSearch::finer(SegmentCoder& coder, Solution best) 
 std::optional<Solution> TargetSearch::reach(SegmentCoder& coder, const Solution* rival) {
   if (const std::optional<double> rmse = rmse_asked())
     return at_rmse(coder, *rmse);
-  switch (target_.metric) {
+  switch (bound_.metric) {
     case ErrorMetric::kMaxError:
-      return at_max_error(coder, target_.value, rival);
+      return at_max_error(coder, bound_.value, rival);
     case ErrorMetric::kDisplacement:
     case ErrorMetric::kSted:
-      return at_motion_error(coder, target_.value);
+      return at_motion_error(coder, bound_.value);
     case ErrorMetric::kSize:
     case ErrorMetric::kBpfv:
       return at_bytes(coder, rival);
@@ -237,7 +237,7 @@ std::optional<Solution> TargetSearch::reach(SegmentCoder& coder, const Solution*
 
 std::optional<Solution> TargetSearch::best_of(std::span<LinearCoder* const> coders) {
   // A first trial tells sizes to about 2 %. At a largest error the ratio that is best for the rival need not be so for the other.
-  const double far_behind = target_.metric == ErrorMetric::kMaxError ? kBehindAtRatio : 1.005;
+  const double far_behind = bound_.metric == ErrorMetric::kMaxError ? kBehindAtRatio : 1.005;
   std::vector<LinearCoder*> order(coders.begin(), coders.end());
   const std::optional<double> rmse = rmse_asked();
   if (rmse && !input_.bounds_clips()) {
@@ -252,7 +252,7 @@ std::optional<Solution> TargetSearch::best_of(std::span<LinearCoder* const> code
   size_t left = coders.size();
   for (LinearCoder* coder : order) {
     input_.expect(expected(left--, true));
-    if (best && (rmse || target_.metric == ErrorMetric::kMaxError))
+    if (best && (rmse || bound_.metric == ErrorMetric::kMaxError))
       coder->give_up_above(far_behind * coder->bytes(best->parts[0]));
     keep_better(rmse ? at_rmse(*coder, *rmse) : reach(*coder, best ? &*best : nullptr), &best);
   }
@@ -260,18 +260,18 @@ std::optional<Solution> TargetSearch::best_of(std::span<LinearCoder* const> code
 }
 
 std::optional<double> TargetSearch::rmse_asked() const {
-  switch (target_.metric) {
+  switch (bound_.metric) {
     case ErrorMetric::kKg:
-      return input_.rmse_of_kg(target_.value);
+      return input_.rmse_of_kg(bound_.value);
     case ErrorMetric::kRmse:
-      return target_.value;
+      return bound_.value;
     default:
       return std::nullopt;
   }
 }
 
 bool TargetSearch::better(const Solution& a, const Solution& b) const {
-  if (is_size(target_))
+  if (is_size(bound_.metric))
     return a.squared_error() < b.squared_error();
   return a.price() < b.price();
 }
@@ -285,13 +285,13 @@ void TargetSearch::keep_better(std::optional<Solution> solution,
 double TargetSearch::typical_rmse(SegmentCoder& coder) {
   if (const std::optional<double> rmse = rmse_asked())
     return *rmse;
-  switch (target_.metric) {
+  switch (bound_.metric) {
     case ErrorMetric::kMaxError:
-      return std::max(target_.value, input_.smallest_bound()) / 4;
+      return std::max(bound_.value, input_.smallest_bound()) / 4;
     case ErrorMetric::kDisplacement:
-      return target_.value / 8;
+      return bound_.value / 8;
     case ErrorMetric::kSted:
-      return input_.rmse_of_kg(5 * target_.value);  // that of characters, about
+      return input_.rmse_of_kg(5 * bound_.value);  // that of characters, about
     case ErrorMetric::kSize:
     case ErrorMetric::kBpfv:
       return rmse_of_size(coder);
@@ -308,7 +308,7 @@ TrialsLeft TargetSearch::expected(size_t coders, bool are_chosen) const {
   if (effort_ == Effort::kFirst)
     return {kWithoutEffort, 0};
   double trials = kOfOneError;
-  switch (target_.metric) {
+  switch (bound_.metric) {
     case ErrorMetric::kMaxError:
     case ErrorMetric::kDisplacement:
     case ErrorMetric::kSted:

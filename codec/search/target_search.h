@@ -3,7 +3,7 @@
 #ifndef ANICODEC_CODEC_SEARCH_TARGET_SEARCH_H_
 #define ANICODEC_CODEC_SEARCH_TARGET_SEARCH_H_
 
-#include "codec/file/encode_options.h"
+#include "codec/plan/encode_options.h"
 #include "codec/search/bound_search.h"
 #include "codec/search/encoder_input.h"
 #include "codec/search/linear_coder.h"
@@ -23,8 +23,8 @@ namespace anicodec {
 class TargetSearch {
  public:
   /// `target`: of clips whose own differ (EncoderInput::bound_clips()) the largest.
-  TargetSearch(const EncoderInput& input, const EncodeOptions& options, const Target& target)
-      : input_(input), target_(target), effort_(options.effort), files_(input, options) {}
+  TargetSearch(const EncoderInput& input, const SearchOptions& options, const Bound& bound)
+      : input_(input), bound_(bound), effort_(options.effort), files_(input) {}
 
   /// The best file of a coder that keeps to the target; nothing when there is none. It need not be the
   /// best if it is far behind `rival`, which another coder made: null for none.
@@ -51,7 +51,7 @@ class TargetSearch {
   double typical_rmse(SegmentCoder& coder);
 
   /// Asks for another size. Knowledge learnt about the coders stays valid.
-  void ask_size(double bytes) { target_ = {ErrorMetric::kSize, bytes, false}; }
+  void ask_size(double bytes) { bound_ = {ErrorMetric::kSize, bytes}; }
 
   /// About how many trials a search takes that has so many coders yet to search, whose settings are chosen or not.
   TrialsLeft expected(size_t coders, bool are_chosen) const;
@@ -72,7 +72,7 @@ class TargetSearch {
   double bytes_asked() const;
 
   const EncoderInput& input_;
-  Target target_;
+  Bound bound_;
   Effort effort_;
   TrialFiles files_;
   std::map<const SegmentCoder*, BoundSearch> searches_;  ///< of sizes, by 1 / RMSE

@@ -10,6 +10,11 @@
 
 namespace anicodec {
 
+TrialFiles::TrialFiles(const EncoderInput& input)
+    : input_(input),
+      record_(clips_record(input.sequence, input.described,
+                           std::vector<ClipGoal>(input.clips.size()))) {}
+
 Solution TrialFiles::unlisted(std::vector<CodedPart> parts) const {
   Solution solution;
   solution.parts = std::move(parts);
@@ -22,9 +27,7 @@ Solution TrialFiles::unlisted(std::vector<CodedPart> parts) const {
       part.error = measure(part.opened, frames, input_.copies);
     }
   }
-  const ClipsRecord record =
-      clips_record(input_.sequence, options_, std::vector<ClipGoal>(input_.clips.size()));
-  solution.bytes = clip_file(record, input_.layout, solution.segments()).size();
+  solution.bytes = clip_file_bytes(record_, input_.layout, solution.segments());
   return solution;
 }
 

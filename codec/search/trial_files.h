@@ -3,9 +3,10 @@
 #ifndef ANICODEC_CODEC_SEARCH_TRIAL_FILES_H_
 #define ANICODEC_CODEC_SEARCH_TRIAL_FILES_H_
 
-#include "codec/file/encode_options.h"
+#include "codec/plan/encode_result.h"
 #include "codec/search/encoder_input.h"
 #include "codec/search/solution.h"
+#include "format/records.h"
 
 #include <vector>
 
@@ -14,9 +15,8 @@ namespace anicodec {
 /// Puts coded parts together to files, and lists what they measured.
 class TrialFiles {
  public:
-  /// Parts are corrected to the caps of the input. Both references must outlive this object.
-  TrialFiles(const EncoderInput& input, const EncodeOptions& options)
-      : input_(input), options_(options) {}
+  /// Parts are corrected to the caps of the input, which must outlive this object.
+  explicit TrialFiles(const EncoderInput& input);
 
   Solution put_together(std::vector<CodedPart> parts);
 
@@ -27,7 +27,7 @@ class TrialFiles {
 
  private:
   const EncoderInput& input_;
-  const EncodeOptions& options_;
+  ClipsRecord record_;
   std::vector<Trial> trials_;
 };
 

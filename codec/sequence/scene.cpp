@@ -151,6 +151,28 @@ void append(const PolygonLabels& labels, size_t polygons, std::map<std::string, 
 
 }  // namespace
 
+void set_timing(const MeshSequence& clip, MeshSequence* mesh) {
+  mesh->name = clip.name;
+  mesh->rate = clip.rate;
+  mesh->start_time = clip.start_time;
+  mesh->times = clip.times;
+  mesh->up = clip.up;
+  mesh->metres_per_unit = clip.metres_per_unit;
+  mesh->origin = clip.origin;
+  mesh->loop = clip.loop;
+  mesh->events = clip.events;
+  mesh->clips = clip.clips;
+}
+
+Scene scene_of(MeshSequence sequence) {
+  Scene scene;
+  set_timing(sequence, &scene.clip);
+  scene.clip.frame_count = sequence.frame_count;
+  const FrameRun all{0, sequence.frame_count};
+  scene.meshes.push_back({std::move(sequence), {all}});
+  return scene;
+}
+
 std::vector<PartMembers> members_of_parts(const MeshSequence& sequence) {
   const Polygons& polygons = sequence.polygons;
   std::map<uint32_t, PartMembers> parts;  // by label

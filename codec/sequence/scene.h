@@ -22,6 +22,12 @@ struct Scene {
   std::vector<SceneMesh> meshes;
 };
 
+/// Gives timing, axes and units of a clip to a mesh that is there in all of it.
+void set_timing(const MeshSequence& clip, MeshSequence* mesh);
+
+/// The scene of a mesh that is always there.
+Scene scene_of(MeshSequence sequence);
+
 /// The vertices and polygons of a mesh that a part has, each ascending.
 struct PartMembers {
   uint32_t part = UINT32_MAX;  ///< label, kNoLabel: of none

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 // A mesh that is in some frames only.
-#include "codec/encode_scene.h"
+#include "codec/encode.h"
 #include "tests/api/opened.h"
 #include "tests/two_boxes.h"
 
@@ -12,7 +12,7 @@ TEST(AnicAbsence, HasAStatus) {
   EncodeOptions encoding;
   encoding.target = {ErrorMetric::kMaxError, 1, true};
   encoding.effort = Effort::kFast;
-  const Bytes file = encode_scene(split_parts(two_boxes()), encoding).file;
+  const Bytes file = encode(split_parts(two_boxes()), encoding).file;
   anic_options options = ANIC_INIT(anic_options);
   options.flags = ANIC_OPEN_BOUNDS;
   const Asset asset = open(file, &options);

@@ -3,9 +3,8 @@
 //
 // docs/memory.md: an encoding holds no more than it may, and is refused only where it would come near that.
 #include "codec/encode.h"
-#include "codec/encode_scene.h"
-#include "codec/file/encoding_memory.h"
 #include "codec/parallel/thread_count.h"
+#include "codec/plan/encoding_memory.h"
 #include "corpus/clips.h"
 #include "tests/heap_count.h"
 
@@ -147,10 +146,10 @@ TEST(EncoderMemory, OfASceneIsThatOfItsMeshes) {
   scene.clip.positions.clear();
   EncodeOptions options = options_of(Effort::kFast);
   options.most_bytes = 5'000'000;
-  EXPECT_THROW(encode_scene(scene, options), OverMemory);
+  EXPECT_THROW(encode(scene, options), OverMemory);
   options.most_bytes = 12'000'000;
   const HeapCount count;
-  with_threads(1, [&] { encode_scene(scene, options); });
+  with_threads(1, [&] { encode(scene, options); });
   EXPECT_LE(count.peak(), options.most_bytes);
 }
 

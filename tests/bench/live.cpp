@@ -61,7 +61,7 @@ Table run_live(const BenchOptions& options, const Target& target, uint32_t frame
     encoding.basis = options.basis;
     encoding.effort = options.effort;
     MeshSequence sequence = load_clip(name);
-    encoding.target = in_scene_units(target, diagonal(sequence));
+    encoding.target = {target.metric, bound_of(target, diagonal(sequence)).value, false};
     const uint32_t vertices = sequence.vertex_count;
     constexpr double kUsual = 30;  // frames a second, where nobody knows
     const double seconds =

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/massage/massage.h"
 
-#include "codec/encode_massaged.h"
+#include "codec/encode.h"
 #include "codec/massage/welded_surface.h"
 #include "codec/metrics/hausdorff.h"
 #include "codec/remesh/decimate.h"
@@ -135,9 +135,10 @@ Table run_massage_auto(const BenchOptions& options, double kg) {
                {"massaged", "massaged", ""},
                {"bytes", "bytes", ""}});
   for (const std::string& word : options.clips) {
-    MassageVerdict verdict;
-    const EncodeResult result =
-        encode_massaged(load_clip(word), MassageMode::kAuto, {}, options_at(options, kg), &verdict);
+    EncodeOptions encoding = options_at(options, kg);
+    encoding.massage.mode = MassageMode::kAuto;
+    const EncodeResult result = encode(load_clip(word), encoding);
+    const MassageVerdict& verdict = result.massage;
     table.add({{"clip", word},
                {"sample_plain_bytes", verdict.sample_plain_bytes},
                {"sample_massaged_bytes", verdict.sample_massaged_bytes},

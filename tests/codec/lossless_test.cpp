@@ -3,8 +3,6 @@
 //
 // Files that give the source's positions back bit for bit.
 #include "codec/encode.h"
-#include "codec/encode_massaged.h"
-#include "codec/encode_scene.h"
 #include "codec/file/edit_clips.h"
 #include "codec/file/join_clips.h"
 #include "codec/sequence/clip_library.h"
@@ -98,7 +96,7 @@ TEST(Lossless, IsOfOneMeshBesideOthers) {
   scene.meshes[1].present_in = {{0, 4}, {6, 6}};
   scene.clip.frame_count = 12;
   scene.meshes[0].present_in = {{2, 10}};
-  const Bytes file = encode_scene(scene, lossless()).file;
+  const Bytes file = encode(scene, lossless()).file;
   const Clip clip = opened(file);
   EXPECT_TRUE(clip.check_hashes().ok());
   for (uint32_t f = 0; f < 10; ++f) {
@@ -194,10 +192,10 @@ TEST(Lossless, EveryPrefixPlaysOrIsRefusedAndTheWholeIsExact) {
 }
 
 TEST(Lossless, GoesWithoutMassage) {
-  MassageVerdict verdict;
+  EncodeOptions options = lossless();
+  options.massage.mode = MassageMode::kOn;
   try {
-    encode_massaged(corpus::make_scaled("limb", 100, 6), MassageMode::kOn, {}, lossless(),
-                    &verdict);
+    encode(corpus::make_scaled("limb", 100, 6), options);
     FAIL();
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::kUsage);

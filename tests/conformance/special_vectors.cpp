@@ -5,7 +5,7 @@
 // rare parameters, streams of numbers without meaning, metadata at its limits.
 //
 // usage: special_vectors NAME FILE.anic      (without arguments: lists the names)
-#include "codec/encode_scene.h"
+#include "codec/encode.h"
 #include "codec/file/clip_file.h"
 #include "codec/file/clip_record.h"
 #include "codec/metrics/metrics.h"
@@ -273,7 +273,7 @@ Bytes scene() {
   whole.meshes.push_back(shown(triangle, {{1, 3}, {7, 2}}, "triangle"));
   EncodeOptions options;
   options.target = {ErrorMetric::kKg, 1, false};
-  return encode_scene(whole, options).file;
+  return encode(whole, options).file;
 }
 
 /// Two shapes in turns: a key-frame is nearest to the one before the last.

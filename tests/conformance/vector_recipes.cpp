@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tests/conformance/vector_recipes.h"
 
-#include "codec/encode_scene.h"
+#include "codec/encode.h"
 #include "codec/file/clip_file.h"
 #include "codec/file/clip_record.h"
 #include "codec/metrics/metrics.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/encode.h"
-#include "codec/encode_massaged.h"
-#include "codec/encode_scene.h"
 #include "codec/sequence/error.h"
 #include "tools/encoding/batch.h"
 #include "tools/encoding/encode_report.h"
@@ -137,15 +135,6 @@ MeshSequence load(const EncodeArguments& command, const Progress& progress,
   return sequence;
 }
 
-EncodeResult encode_as_asked(const EncodeArguments& command, MeshSequence sequence,
-                             EncodeOptions options, MassageVerdict* massage,
-                             const Progress& progress) {
-  set_target(command, sequence.metres_per_unit, &options);
-  const MassageOptions options_of_massage = massage_options(command, sequence);
-  return encode_massaged(std::move(sequence), command.massage, options_of_massage, options, massage,
-                         progress);
-}
-
 void encode_batch(const EncodeArguments& command, const CommonOptions& common) {
   if (!command.part.empty())
     throw Error(ErrorKind::kUsage, "--part takes a part of one clip, --batch has many");
@@ -181,39 +170,11 @@ void encode_batch(const EncodeArguments& command, const CommonOptions& common) {
       [&](const BatchClip& clip, MeshSequence sequence) {
         EncodeOptions own = options;
         own.order = order_of(command.order, clip.inputs);
-        if (command.split_objects) {
-          set_target(command, sequence.metres_per_unit, &own);
-          return encode_scene(split_parts(std::move(sequence)), own);
-        }
-        MassageVerdict massage;
-        return encode_as_asked(command, std::move(sequence), own, &massage, {});
+        Scene scene = command.split_objects ? split_parts(std::move(sequence))
+                                            : scene_of(std::move(sequence));
+        set_lengths(command, scene, &own);
+        return encode(std::move(scene), own);
       });
-}
-
-/// Encodes several meshes: objects of a scene, or frames whose connectivity changes.
-EncodeResult encode_meshes(const EncodeArguments& command, EncodeOptions options,
-                           const Progress& progress) {
-  const bool changes = command.topology_changes == TopologyChanges::kKeep;
-  if (!command.part.empty() || command.massage != MassageMode::kOff)
-    throw Error(ErrorKind::kUsage, fmt::format("{} goes without --part and --massage",
-                                               changes ? "--topology-changes" : "--split-objects"));
-  Scene scene;
-  if (changes) {
-    scene = load_topologies(command.inputs, load_options(command, progress));
-    set_metadata(command, scene.clip);
-    std::vector<MeshDetails*> meshes;
-    for (SceneMesh& mesh : scene.meshes)
-      meshes.push_back(&mesh.sequence);
-    set_fields(command, meshes);
-  } else {
-    scene = split_parts(load(command, progress, &options));
-  }
-  set_target(command, scene.clip.metres_per_unit, &options);
-  try {
-    return encode_scene(std::move(scene), options, progress);
-  } catch (const Error& e) {
-    throw Error(e.kind(), fmt::format("{}: {}", command.inputs[0], e.what()));
-  }
 }
 
 /// Throws Error(kUsage) where no glTF scene can carry the clip.
@@ -250,29 +211,48 @@ StillSurface split_surface(MeshSequence& sequence) {
   return still;
 }
 
-/// Encodes frames of one connectivity. `still`: of a scene that carries the clip, or null.
-EncodeResult encode_clip(const EncodeArguments& command, EncodeOptions options,
-                         MassageVerdict* massage, StillSurface* still, const Progress& progress) {
-  MeshSequence sequence = load(command, progress, &options);
+/// Reads frames whose connectivity changes: each run of the same is a mesh.
+Scene load_changing(const EncodeArguments& command, const Progress& progress) {
+  Scene scene = load_topologies(command.inputs, load_options(command, progress));
+  set_metadata(command, scene.clip);
+  std::vector<MeshDetails*> meshes;
+  for (SceneMesh& mesh : scene.meshes)
+    meshes.push_back(&mesh.sequence);
+  set_fields(command, meshes);
+  return scene;
+}
+
+/// Reads the input as the meshes of the file, and what of the options depends on it. `still`: of a scene that carries
+/// the clip, or null.
+Scene load_meshes(const EncodeArguments& command, const Progress& progress, StillSurface* still,
+                  EncodeOptions* options) {
+  if (command.topology_changes == TopologyChanges::kKeep)
+    return load_changing(command, progress);
+  MeshSequence sequence = load(command, progress, options);
+  if (command.split_objects)
+    return split_parts(std::move(sequence));
   if (still) {
     *still = split_surface(sequence);
-    options.order = OrderMode::kVertices;
+    options->order = OrderMode::kVertices;
   }
-  if (options.keyframes && *options.keyframes > sequence.frame_count)
+  if (options->keyframes && *options->keyframes > sequence.frame_count)
     throw Error(ErrorKind::kUsage,
-                fmt::format("--keyframes {}: {} has only {} frames", *options.keyframes,
+                fmt::format("--keyframes {}: {} has only {} frames", *options->keyframes,
                             command.inputs[0], sequence.frame_count));
   if (!command.part.empty()) {
     const FrameRange range = parse_frames(command.part, "--part", sequence.frame_count);
     if (range.step != 1)
       throw Error(ErrorKind::kUsage, "--part: a part has all frames from A to B - 1, without step");
-    options.part = FrameRun{range.first, range.size()};
+    options->part = FrameRun{range.first, range.size()};
   }
+  return scene_of(std::move(sequence));
+}
+
+EncodeResult encode_meshes(const EncodeArguments& command, Scene scene, EncodeOptions options,
+                           const Progress& progress) {
   try {
-    EncodeResult result = encode_as_asked(command, std::move(sequence), options, massage, progress);
-    if (command.topology_changes == TopologyChanges::kTransfer)
-      massage->change = options.surface_change;
-    return result;
+    set_lengths(command, scene, &options);
+    return encode(std::move(scene), options, progress);
   } catch (const Error& e) {
     throw Error(e.kind(), fmt::format("{}: {}", command.inputs[0], e.what()));
   }
@@ -291,6 +271,18 @@ std::function<void(const std::string&)> notes_above(ProgressLine& line, bool qui
   };
 }
 
+void check_goes_together(const EncodeArguments& command) {
+  const TopologyChanges changes = command.topology_changes;
+  if (changes != TopologyChanges::kRefuse && command.split_objects)
+    throw Error(ErrorKind::kUsage, "--topology-changes goes without --split-objects");
+  if (changes != TopologyChanges::kRefuse && command.massage != MassageMode::kOff)
+    throw Error(ErrorKind::kUsage, "--topology-changes goes without --massage");
+  if (changes == TopologyChanges::kKeep && !command.part.empty())
+    throw Error(ErrorKind::kUsage, "--topology-changes keep goes without --part");
+  if (command.split_objects && (!command.part.empty() || command.massage != MassageMode::kOff))
+    throw Error(ErrorKind::kUsage, "--split-objects goes without --part and --massage");
+}
+
 void run(EncodeArguments command, const CommonOptions& common) {
   if (!command.memory.empty())
     set_memory_for_frames(parse_size(command.memory, "--memory"));
@@ -300,11 +292,7 @@ void run(EncodeArguments command, const CommonOptions& common) {
     return encode_batch(command, common);
   if (command.inputs.empty())
     throw Error(ErrorKind::kUsage, "encode: INPUT is required, or --batch");
-  if (command.topology_changes != TopologyChanges::kRefuse && command.split_objects)
-    throw Error(ErrorKind::kUsage, "--topology-changes goes without --split-objects");
-  if (command.topology_changes == TopologyChanges::kTransfer &&
-      command.massage != MassageMode::kOff)
-    throw Error(ErrorKind::kUsage, "--topology-changes goes without --massage");
+  check_goes_together(command);
   EncodeOptions options = encode_options(command);
   const bool in_scene = is_scene_output(command.output);
   if (in_scene)
@@ -319,12 +307,9 @@ void run(EncodeArguments command, const CommonOptions& common) {
   Progress progress = line.callback();
   std::vector<std::string> notes;
   command.note = notes_above(line, common.quiet, notes);
-  MassageVerdict massage;
-  const bool several = command.topology_changes == TopologyChanges::kKeep || command.split_objects;
   StillSurface still;
-  EncodeResult result =
-      several ? encode_meshes(command, options, progress)
-              : encode_clip(command, options, &massage, in_scene ? &still : nullptr, progress);
+  Scene meshes = load_meshes(command, progress, in_scene ? &still : nullptr, &options);
+  const EncodeResult result = encode_meshes(command, std::move(meshes), options, progress);
   std::string_view written(reinterpret_cast<const char*>(result.file.data()), result.file.size());
   std::string scene;
   if (in_scene)
@@ -338,7 +323,7 @@ void run(EncodeArguments command, const CommonOptions& common) {
   output->write(written);
   output->commit();
   const EncodeReport report{
-      command.output,        result,       massage, command.massage == MassageMode::kAuto,
+      command.output,        result,       command.massage == MassageMode::kAuto,
       !command.rate.empty(), scene.size(), notes};
   if (common.json)
     print_json(report.json());

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/encoding/batch.h"
 
-#include "codec/file/encoding_memory.h"
 #include "codec/parallel/thread_count.h"
+#include "codec/plan/encoding_memory.h"
 #include "codec/sequence/error.h"
 #include "format/checksum.h"
 #include "tools/io/files/atomic_file.h"
@@ -266,7 +266,7 @@ class Batch {
     std::unique_lock reading(read_);
     MeshSequence sequence = load_(clip, [&](const std::string& text) { notes.push_back(text); });
     const uint64_t bytes = sequence.positions.size() * sizeof(float);
-    const EncodingMemory needs = EncodingMemory::of(sequence, {});
+    const EncodingMemory needs = EncodingMemory::of(sequence, EncodeOptions());
     const Taken memory(
         budget_, static_cast<uint64_t>(needs.kept({}) +
                                        static_cast<double>(thread_count()) * needs.thread({})));

@@ -78,9 +78,9 @@ nlohmann::ordered_json EncodeReport::json() const {
   json["max_error"] = result.max_error;
   json["max_error_percent"] = max_error_percent(result);
   json["diagonal"] = result.diagonal;
-  json["massaged"] = massage.change.has_value();
-  json["surface_error"] = massage.change ? massage.change->max : 0;
-  json["surface_error_mean"] = massage.change ? massage.change->mean : 0;
+  json["massaged"] = result.massage.change.has_value();
+  json["surface_error"] = result.massage.change ? result.massage.change->max : 0;
+  json["surface_error_mean"] = result.massage.change ? result.massage.change->mean : 0;
   json["clips"] = nlohmann::ordered_json::array();
   for (const ClipResult& clip : result.clips)
     json["clips"].push_back({{"name", clip.name},
@@ -138,13 +138,13 @@ void EncodeReport::print_text(int verbosity) const {
   }
   if (massage_was_choice && verbosity > 0)
     fmt::print("  massage: sample {} bytes plain, {} massaged; whole clip plain {}\n",
-               grouped(massage.sample_plain_bytes), grouped(massage.sample_massaged_bytes),
-               grouped(massage.plain_bytes));
-  if (massage.change)
+               grouped(result.massage.sample_plain_bytes),
+               grouped(result.massage.sample_massaged_bytes), grouped(result.massage.plain_bytes));
+  if (result.massage.change)
     fmt::print(
         "massaged: the surface moved by {:.3g} % of the diagonal on average, {:.3g} % at most\n",
-        percent(massage.change->mean, result.diagonal),
-        percent(massage.change->max, result.diagonal));
+        percent(result.massage.change->mean, result.diagonal),
+        percent(result.massage.change->max, result.diagonal));
   else if (massage_was_choice)
     fmt::print("not massaged: the clip would not become smaller\n");
   Rate rate(result);

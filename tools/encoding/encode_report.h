@@ -3,8 +3,7 @@
 #ifndef ANICODEC_TOOLS_ENCODING_ENCODE_REPORT_H_
 #define ANICODEC_TOOLS_ENCODING_ENCODE_REPORT_H_
 
-#include "codec/encode.h"
-#include "codec/encode_massaged.h"
+#include "codec/plan/encode_result.h"
 
 #include <cstddef>
 #include <span>
@@ -18,7 +17,6 @@ namespace anicodec::tools {
 struct EncodeReport {
   const std::string& path;
   const EncodeResult& result;
-  const MassageVerdict& massage;
   bool massage_was_choice = false;  ///< --massage auto
   bool rate_asked = false;          ///< --fps
   size_t glb_bytes = 0;             ///< of the scene that carries the clip; 0: it stands alone

@@ -153,7 +153,7 @@ void report_bound(const EncodeOptions& options, const EncodeResult& first) {
       print_line(
           stderr,
           "{:g} % is {:.4g}, of the diagonal {:.4g} of the first piece's box; --box gives another",
-          target.value, in_scene_units(target, first.diagonal).value, first.diagonal);
+          target.value, bound_of(target, first.diagonal).value, first.diagonal);
   }
 }
 

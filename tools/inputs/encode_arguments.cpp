@@ -349,15 +349,15 @@ LoadOptions load_options(const EncodeArguments& command, const Progress& progres
   return options;
 }
 
-MassageOptions massage_options(const EncodeArguments& command, const MeshSequence& sequence) {
-  MassageOptions options;
-  options.strength = command.massage_strength;
+void set_lengths(const EncodeArguments& command, const Scene& scene, EncodeOptions* options) {
+  const double metres_per_unit = scene.clip.metres_per_unit;
+  set_target(command, metres_per_unit, options);
   if (!command.massage_tolerance.empty()) {
     const Length length = parse_length(command.massage_tolerance, "--massage-tolerance")
-                              .in_scene_units(sequence.metres_per_unit, "--massage-tolerance");
-    options.tolerance = length.percent ? length.value / 100 * diagonal(sequence) : length.value;
+                              .in_scene_units(metres_per_unit, "--massage-tolerance");
+    options->massage.options.tolerance =
+        length.percent ? length.value / 100 * diagonal(scene.meshes[0].sequence) : length.value;
   }
-  return options;
 }
 
 void set_metadata(const EncodeArguments& command, MeshSequence& sequence) {

@@ -5,7 +5,6 @@
 
 #include "codec/encode.h"
 #include "codec/encode_live.h"
-#include "codec/encode_massaged.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "tools/inputs/encode_choices.h"
 #include "tools/io/load_sequence.h"
@@ -53,11 +52,11 @@ EncodeOptions encode_options(const EncodeArguments& arguments);
 /// naming the option, also for a length in a unit of its own where the clip's is unknown.
 void set_target(const EncodeArguments& arguments, double metres_per_unit, EncodeOptions* options);
 
+/// Sets the target and the massage's tolerance for a scene. Throws as set_target().
+void set_lengths(const EncodeArguments& arguments, const Scene& scene, EncodeOptions* options);
+
 /// The importers' options from them.
 LoadOptions load_options(const EncodeArguments& arguments, const Progress& progress);
-
-/// The massage's options from them, for a clip.
-MassageOptions massage_options(const EncodeArguments& arguments, const MeshSequence& sequence);
 
 /// Axes, unit and loop that they give a clip.
 void set_metadata(const EncodeArguments& arguments, MeshSequence& sequence);

@@ -151,6 +151,8 @@ void copy_choices(const EncodeChoices& c, EncodeOptions* options) {
   options->keyframe_poses = c.keyframe_coder;
   options->effort = c.effort;
   options->smallest = c.smallest;
+  options->massage.mode = c.massage;
+  options->massage.options.strength = c.massage_strength;
   options->attributes.keep = !c.no_attributes;
   options->attributes.uv_bits = c.uv_bits;
   options->attributes.colour_bits = c.colour_bits;

@@ -7,8 +7,7 @@
 #ifndef ANICODEC_TOOLS_INPUTS_ENCODE_CHOICES_H_
 #define ANICODEC_TOOLS_INPUTS_ENCODE_CHOICES_H_
 
-#include "codec/encode.h"
-#include "codec/encode_massaged.h"
+#include "codec/plan/encode_options.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "tools/options/options.h"
 #include "tools/words/word_table.h"

@@ -3,9 +3,9 @@
 #ifndef ANICODEC_TOOLS_REPORT_MASSAGE_STUDY_H_
 #define ANICODEC_TOOLS_REPORT_MASSAGE_STUDY_H_
 
-#include "codec/file/encode_options.h"
 #include "codec/massage/massage_quality.h"
 #include "codec/metrics/hausdorff.h"
+#include "codec/plan/encode_options.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "codec/sequence/progress.h"
 

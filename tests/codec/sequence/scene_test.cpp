@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/sequence/scene.h"
 
-#include "codec/encode_scene.h"
+#include "codec/encode.h"
 #include "codec/sequence/error.h"
 #include "sdk/clip/clip.h"
 #include "tests/two_boxes.h"

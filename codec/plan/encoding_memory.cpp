@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/file/encoding_memory.h"
+#include "codec/plan/encoding_memory.h"
 
 #include "codec/motion/motion_products.h"
 #include "codec/sequence/frame_array.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace anicodec {
 namespace {
@@ -33,16 +34,29 @@ std::string whole(double bytes) {
   return std::to_string(static_cast<uint64_t>(std::min(bytes, 1e18)));
 }
 
-}  // namespace
-
-EncodingMemory EncodingMemory::of(const MeshSequence& sequence, const EncodeOptions& options) {
+EncodingMemory of_frames(const MeshSequence& sequence, const std::optional<FrameRun>& run,
+                         const AttributeOptions& attributes) {
   EncodingMemory memory;
   memory.vertices = sequence.vertex_count;
-  memory.frames = options.part ? options.part->count : sequence.frame_count;
-  if (options.attributes.keep) {
+  memory.frames = run ? run->count : sequence.frame_count;
+  if (attributes.keep) {
     for (const Attribute& attribute : sequence.attributes)
       memory.attribute_values += static_cast<double>(attribute.values.size());
   }
+  return memory;
+}
+
+}  // namespace
+
+EncodingMemory EncodingMemory::of(const MeshSequence& sequence, const EncodeOptions& options) {
+  EncodingMemory memory = of_frames(sequence, options.part, options.attributes);
+  memory.lossless = is_lossless(options.target);
+  return memory;
+}
+
+EncodingMemory EncodingMemory::of(const MeshSequence& sequence, const MeshPlan& plan) {
+  EncodingMemory memory = of_frames(sequence, plan.run, plan.attributes);
+  memory.lossless = plan.is_lossless();
   return memory;
 }
 
@@ -63,8 +77,8 @@ double EncodingMemory::sketch(double of_vertices, double components) const {
   return kOfFrame * rows * frames + kOfPairs * rows * rows;
 }
 
-double EncodingMemory::kept(const EncodeOptions& options) const {
-  const int copies = 1 + (options.root_motion ? 1 : 0) + (is_lossless(options.target) ? 2 : 0);
+double EncodingMemory::kept(const CodingOptions& options) const {
+  const int copies = 1 + (options.root_motion ? 1 : 0) + (lossless ? 2 : 0);
   const bool keyframes_alone = options.basis == BasisChoice::kKeyframes || options.keyframes;
   const double of_keyframes = kKeyProducts * frames * frames;
   const bool keyframes_too = frames <= kMultiplied && vertices < frames;  // else they take no more
@@ -75,7 +89,7 @@ double EncodingMemory::kept(const EncodeOptions& options) const {
   return in_memory + kAttributes * sizeof(float) * attribute_values + of_all;
 }
 
-double EncodingMemory::thread(const EncodeOptions& options) const {
+double EncodingMemory::thread(const SearchOptions& options) const {
   return kAny + (options.effort > Effort::kFast ? kTrials : kFewTrials) * vertices +
          kTimes * frames;
 }
@@ -114,7 +128,7 @@ uint64_t most_bytes_beside(double bytes, uint64_t most_bytes) {
   return static_cast<uint64_t>(std::max(1.0, static_cast<double>(most_bytes) - bytes));
 }
 
-MemoryPlan plan_memory(const EncodingMemory& memory, const EncodeOptions& options, size_t threads,
+MemoryPlan plan_memory(const EncodingMemory& memory, const CodingOptions& options, size_t threads,
                        double others) {
   const auto most = static_cast<double>(options.most_bytes);
   const double kept = others + memory.kept(options), thread = memory.thread(options);

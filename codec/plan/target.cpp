@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/file/target.h"
+#include "codec/plan/target.h"
 
 #include "codec/sequence/error.h"
 
@@ -10,16 +10,12 @@
 
 namespace anicodec {
 
-Target in_scene_units(Target target, double diagonal) {
+Bound bound_of(const Target& target, double diagonal) {
   if (target.metric == ErrorMetric::kNone || is_lossless(target))
-    return target;
+    return {target.metric, target.value};
   if (!(std::isfinite(target.value) && target.value > 0))
     throw Error(ErrorKind::kUsage, "the target must be greater than 0");
-  if (target.percent) {
-    target.value *= diagonal / 100;
-    target.percent = false;
-  }
-  return target;
+  return {target.metric, target.percent ? target.value * (diagonal / 100) : target.value};
 }
 
 std::vector<ClipGoal> clip_goals(const Target& target, const std::optional<Target>& cap,
@@ -35,9 +31,9 @@ std::vector<ClipGoal> clip_goals(const Target& target, const std::optional<Targe
   for (double d : diagonals) {
     const double length = d > 0 ? d : smallest;
     ClipGoal& goal = goals.emplace_back();
-    goal.target = in_scene_units(target, length);
+    goal.bound = bound_of(target, length);
     if (cap)
-      goal.cap = in_scene_units(*cap, length).value;
+      goal.cap = bound_of(*cap, length).value;
     goal.diagonal = d;
   }
   return goals;
@@ -45,8 +41,8 @@ std::vector<ClipGoal> clip_goals(const Target& target, const std::optional<Targe
 
 void limit_goal(double length, ClipGoal* goal) {
   constexpr double kMost = 1e6;
-  double& value = goal->target.value;
-  switch (goal->target.metric) {
+  double& value = goal->bound.value;
+  switch (goal->bound.metric) {
     case ErrorMetric::kMaxError:
     case ErrorMetric::kRmse:
     case ErrorMetric::kDisplacement:
@@ -65,34 +61,35 @@ void limit_goal(double length, ClipGoal* goal) {
     goal->cap = std::min(*goal->cap, kMost * length);
 }
 
-const Target& largest_target(const std::vector<ClipGoal>& goals) {
-  return std::ranges::max_element(goals, {}, [](const ClipGoal& goal) { return goal.target.value; })
-      ->target;
+const Bound& largest_bound(const std::vector<ClipGoal>& goals) {
+  return std::ranges::max_element(goals, {}, [](const ClipGoal& goal) { return goal.bound.value; })
+      ->bound;
 }
 
-std::optional<double> allowed_bytes(const Target& target, uint32_t vertices, uint32_t frames) {
-  if (target.metric == ErrorMetric::kSize)
-    return target.value;
-  if (target.metric == ErrorMetric::kBpfv)
-    return target.value / 8 * vertices * frames;
+std::optional<double> allowed_bytes(const Bound& bound, uint32_t vertices, uint32_t frames) {
+  if (bound.metric == ErrorMetric::kSize)
+    return bound.value;
+  if (bound.metric == ErrorMetric::kBpfv)
+    return bound.value / 8 * vertices * frames;
   return std::nullopt;
 }
 
-bool is_kept(const Target& target, std::optional<double> cap, const FileMeasures& file) {
-  if (cap && target.metric != ErrorMetric::kMaxError && !(file.max_error <= *cap))
+bool is_kept(const ClipGoal& goal, const FileMeasures& file) {
+  const Bound& bound = goal.bound;
+  if (goal.cap && bound.metric != ErrorMetric::kMaxError && !(file.max_error <= *goal.cap))
     return false;
-  switch (target.metric) {
+  switch (bound.metric) {
     case ErrorMetric::kKg:
-      return file.kg <= target.value;
+      return file.kg <= bound.value;
     case ErrorMetric::kRmse:
-      return file.rmse <= target.value;
+      return file.rmse <= bound.value;
     case ErrorMetric::kMaxError:
-      return file.max_error <= target.value;
+      return file.max_error <= bound.value;
     case ErrorMetric::kDisplacement:
-      return file.max_displacement_error <= target.value;
+      return file.max_displacement_error <= bound.value;
     case ErrorMetric::kSize:
     case ErrorMetric::kBpfv:
-      return static_cast<double>(file.bytes) <= *allowed_bytes(target, file.vertices, file.frames);
+      return static_cast<double>(file.bytes) <= *allowed_bytes(bound, file.vertices, file.frames);
     case ErrorMetric::kSted:
     case ErrorMetric::kNone:
       break;

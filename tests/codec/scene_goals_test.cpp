@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/encode_scene.h"
+#include "codec/scene_goals.h"
 
+#include "codec/encode.h"
 #include "codec/sequence/error.h"
 #include "codec/sequence/scene.h"
 #include "sdk/clip/sample.h"
@@ -18,11 +19,11 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(EncodeScene, KeepsTheErrorOfTheWholeAndTheRunsOfEach) {
+TEST(SceneGoals, KeepsTheErrorOfTheWholeAndTheRunsOfEach) {
   const MeshSequence whole = two_boxes();
   EncodeOptions options;
   options.target = {ErrorMetric::kKg, 0.1, false};
-  const EncodeResult result = encode_scene(split_parts(whole), options);
+  const EncodeResult result = encode(split_parts(whole), options);
   EXPECT_LE(result.kg, 0.1);
   EXPECT_EQ(result.vertices, whole.vertex_count);
   Clip clip;
@@ -52,20 +53,20 @@ TEST(EncodeScene, KeepsTheErrorOfTheWholeAndTheRunsOfEach) {
   EXPECT_LE(worst, result.max_error * 1.0001);
 }
 
-TEST(EncodeScene, NamesTheMeshThatFails) {
+TEST(SceneGoals, NamesTheMeshThatFails) {
   Scene scene = split_parts(two_boxes());
   scene.meshes[1].sequence.positions[5] = NAN;
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 0.1, true};
   try {
-    encode_scene(std::move(scene), options);
+    encode(std::move(scene), options);
     FAIL();
   } catch (const Error& e) {
     EXPECT_THAT(e.what(), HasSubstr("mesh 'still': "));
   }
 }
 
-TEST(EncodeScene, TakesAllFramesOfAMeshThatHasFewerThanKeyframes) {
+TEST(SceneGoals, TakesAllFramesOfAMeshThatHasFewerThanKeyframes) {
   Scene scene = split_parts(two_boxes());
   MeshSequence& brief = scene.meshes[1].sequence;
   brief.frame_count = 3;
@@ -78,16 +79,27 @@ TEST(EncodeScene, TakesAllFramesOfAMeshThatHasFewerThanKeyframes) {
        {KeyframeMethod::kGas, KeyframeMethod::kPivot, KeyframeMethod::kUniform}) {
     options.select = method;
     Clip clip;
-    ASSERT_TRUE(clip.open(encode_scene(scene, options).file).ok());
+    ASSERT_TRUE(clip.open(encode(scene, options).file).ok());
     EXPECT_LE(clip.limits().segments[1].components, 3U);
     EXPECT_THROW(encode(scene.meshes[1].sequence, options), Error);
   }
 }
 
-TEST(EncodeScene, RefusesATargetSize) {
+TEST(SceneGoals, AreThoseOfTheWhole) {
+  const Scene scene = split_parts(two_boxes());
+  const SceneExtent extent = extent_of(scene);
+  EXPECT_NEAR(extent.diagonal, diagonal(two_boxes()), 1e-6);
+  EXPECT_EQ(shared_goal({ErrorMetric::kMaxError, 1, true}, {}, extent).bound.value,
+            extent.diagonal / 100);
+  const Bound of_kg = shared_goal({ErrorMetric::kKg, 0.1, false}, {}, extent).bound;
+  EXPECT_EQ(of_kg.metric, ErrorMetric::kRmse);
+  EXPECT_DOUBLE_EQ(of_kg.value, 0.001 * std::sqrt(extent.spread / extent.positions));
+}
+
+TEST(SceneGoals, RefusesATargetSize) {
   EncodeOptions options;
   options.target = {ErrorMetric::kSize, 1e6, false};
-  EXPECT_THROW(encode_scene(split_parts(two_boxes()), options), Error);
+  EXPECT_THROW(encode(split_parts(two_boxes()), options), Error);
 }
 
 }  // namespace

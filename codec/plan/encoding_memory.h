@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_CODEC_FILE_ENCODING_MEMORY_H_
-#define ANICODEC_CODEC_FILE_ENCODING_MEMORY_H_
+#ifndef ANICODEC_CODEC_PLAN_ENCODING_MEMORY_H_
+#define ANICODEC_CODEC_PLAN_ENCODING_MEMORY_H_
 
-#include "codec/file/encode_options.h"
+#include "codec/plan/encode_options.h"
+#include "codec/plan/mesh_plan.h"
 #include "codec/sequence/error.h"
 #include "format/records.h"
 
@@ -15,7 +16,7 @@
 
 namespace anicodec {
 
-/// An encoding would hold more memory than EncodeOptions::most_bytes.
+/// An encoding would hold more memory than CodingOptions::most_bytes.
 class OverMemory : public Error {
  public:
   explicit OverMemory(const std::string& text) : Error(ErrorKind::kInput, text) {}
@@ -26,17 +27,21 @@ struct EncodingMemory {
   double vertices = 0;
   double frames = 0;
   double attribute_values = 0;  ///< of all frames
+  bool lossless = false;        ///< exact positions are kept, too
 
   /// A sequence that is encoded so.
   static EncodingMemory of(const MeshSequence& sequence, const EncodeOptions& options);
 
+  /// The same by a plan.
+  static EncodingMemory of(const MeshSequence& sequence, const MeshPlan& plan);
+
   double positions() const { return 12 * vertices * frames; }
 
   /// The sequence, attributes, and products of all frames: whatever the threads and the target.
-  double kept(const EncodeOptions& options) const;
+  double kept(const CodingOptions& options) const;
 
   /// More for each thread.
-  double thread(const EncodeOptions& options) const;
+  double thread(const SearchOptions& options) const;
 
   /// More where surfaces are cut into so many regions: the positions once more, a space of so many trajectories, and
   /// products of each region in it.
@@ -95,13 +100,13 @@ struct MemoryPlan {
   double left;
 };
 
-/// EncodeOptions::most_bytes for what is encoded while so many other bytes are held.
+/// CodingOptions::most_bytes for what is encoded while so many other bytes are held.
 uint64_t most_bytes_beside(double bytes, uint64_t most_bytes);
 
 /// Throws OverMemory where even one thread, beside the bytes of others, would take more than options.most_bytes.
-MemoryPlan plan_memory(const EncodingMemory& memory, const EncodeOptions& options, size_t threads,
+MemoryPlan plan_memory(const EncodingMemory& memory, const CodingOptions& options, size_t threads,
                        double others = 0);
 
 }  // namespace anicodec
 
-#endif  // ANICODEC_CODEC_FILE_ENCODING_MEMORY_H_
+#endif  // ANICODEC_CODEC_PLAN_ENCODING_MEMORY_H_

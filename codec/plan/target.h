@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_CODEC_FILE_TARGET_H_
-#define ANICODEC_CODEC_FILE_TARGET_H_
+#ifndef ANICODEC_CODEC_PLAN_TARGET_H_
+#define ANICODEC_CODEC_PLAN_TARGET_H_
 
 #include "format/records.h"
 
@@ -13,7 +13,7 @@
 
 namespace anicodec {
 
-/// The bound that the file must keep.
+/// An error or a size that a file must keep, as it is asked for.
 struct Target {
   ErrorMetric metric = ErrorMetric::kNone;
   double value = 0;  ///< KG in per cent, lengths in scene units (or per cent), bytes, or bpfv
@@ -21,13 +21,19 @@ struct Target {
   bool percent = false;
 };
 
-/// The target with lengths in scene units. Throws Error(kUsage) for values that make no sense.
-Target in_scene_units(Target target, double diagonal);
+/// The same for a clip, no longer relative: lengths are in scene units.
+struct Bound {
+  ErrorMetric metric = ErrorMetric::kNone;
+  double value = 0;
+};
 
-/// The target and the cap of a clip, lengths in scene units.
+/// The target of a clip of this diagonal. Throws Error(kUsage) for values that make no sense.
+Bound bound_of(const Target& target, double diagonal);
+
+/// The bounds that one of the clips of a file must keep.
 struct ClipGoal {
-  Target target;
-  std::optional<double> cap;  ///< a maximum error beside another target
+  Bound bound;
+  std::optional<double> cap;  ///< a maximum error beside another bound
   double diagonal = 0;        ///< of the clip
 };
 
@@ -40,21 +46,21 @@ std::vector<ClipGoal> clip_goals(const Target& target, const std::optional<Targe
 /// a million times `length`, the diagonal of all clips, and of a million per cent.
 void limit_goal(double length, ClipGoal* goal);
 
-/// The largest of the targets of clips, which are of one metric.
-const Target& largest_target(const std::vector<ClipGoal>& goals);
+/// The largest of the bounds of clips, which are of one metric.
+const Bound& largest_bound(const std::vector<ClipGoal>& goals);
 
-/// The bytes that a target which is a size allows a file of these many vertices and frames; nothing
-/// for other targets.
-std::optional<double> allowed_bytes(const Target& target, uint32_t vertices, uint32_t frames);
+/// The bytes that a bound which is a size allows a file of these many vertices and frames; nothing
+/// for others.
+std::optional<double> allowed_bytes(const Bound& bound, uint32_t vertices, uint32_t frames);
 
 /// Whether the source's positions are to come back bit for bit: a largest error of 0.
 inline bool is_lossless(const Target& target) {
   return target.metric == ErrorMetric::kMaxError && target.value == 0;
 }
 
-/// Whether the target is a size, so that the error is what remains to be made small.
-inline bool is_size(const Target& target) {
-  return target.metric == ErrorMetric::kSize || target.metric == ErrorMetric::kBpfv;
+/// Whether a target is a size, so that the error is what remains to be made small.
+inline bool is_size(ErrorMetric metric) {
+  return metric == ErrorMetric::kSize || metric == ErrorMetric::kBpfv;
 }
 
 /// Whether a target is about how a clip moves, which is measured over pairs of frames and not frame
@@ -74,12 +80,12 @@ struct FileMeasures {
   uint32_t frames = 0;
 };
 
-/// Whether a file keeps to the target, but for a STED, and to the largest maximum error `cap` if there is one.
-bool is_kept(const Target& target, std::optional<double> cap, const FileMeasures& file);
+/// Whether a file keeps to a goal, but for a STED.
+bool is_kept(const ClipGoal& goal, const FileMeasures& file);
 
 /// A number for a message, with four digits.
 std::string four_digits(double x);
 
 }  // namespace anicodec
 
-#endif  // ANICODEC_CODEC_FILE_TARGET_H_
+#endif  // ANICODEC_CODEC_PLAN_TARGET_H_
