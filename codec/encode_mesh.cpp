@@ -9,7 +9,7 @@
 #include "codec/file/root_motion_encode.h"
 #include "codec/parallel/thread_count.h"
 #include "codec/plan/encoding_memory.h"
-#include "codec/search/clip_search.h"
+#include "codec/search/file_search.h"
 #include "codec/search/opening_time.h"
 #include "codec/search/search_progress.h"
 #include "codec/segment/exact_encode.h"
@@ -169,9 +169,9 @@ std::vector<StoredAttribute> laid_out(const MeshPlan& plan, EncoderInput& input)
 
 /// Adds the exact positions to the segments of a clip.
 void keep_exact(const EncoderInput& input, Solution& positions) {
-  for (CodedPart& part : positions.parts) {
-    Limits::Segment& sizes = part.encoded.sizes;
-    part.encoded.exact =
+  for (CodedSegment& segment : positions.segments) {
+    Limits::Segment& sizes = segment.encoded.sizes;
+    segment.encoded.exact =
         encode_exact(input.shown().frames(sizes.first_frame, sizes.frames), input.layout.topology);
     sizes.exact = true;
   }
@@ -237,22 +237,22 @@ EncodedMesh encode_within(MeshSequence sequence, const MeshPlan& plan, const Pro
   const std::vector<StoredAttribute> stored = laid_out(plan, input);
   input.pose = given_pose(plan, input, bound);
 
-  ClipSearch search(input, stored, plan, bound);
+  FileSearch search(input, stored, plan, bound);
   CodedClip coded = search.run(mesh.record);
   if (plan.is_lossless())
     keep_exact(input, coded.positions);
 
   ClipsRecord unmeasured = mesh.record;
   make_room(coded.attributes.results, &unmeasured);
-  const Bytes file = clip_file(unmeasured, input.layout, coded.segments());
+  const Bytes file = clip_file(unmeasured, input.layout, coded.encoded());
   const CheckedFile checked =
       check_file(file, input, stored, plan.is_lossless(), plan.learning, &coded.attributes.results);
   EncodeResult& result = mesh.result;
   result = result_of(checked.clips, input);
   promise(plan, input, checked.clips, file.size(), &mesh);
-  result.kind = coded.positions.parts[0].encoded.sizes.kind;
-  for (const CodedPart& part : coded.positions.parts) {
-    const Limits::Segment& sizes = part.encoded.sizes;
+  result.kind = coded.positions.segments[0].encoded.sizes.kind;
+  for (const CodedSegment& segment : coded.positions.segments) {
+    const Limits::Segment& sizes = segment.encoded.sizes;
     result.components = std::max(result.components, sizes.components);
     result.segments.push_back({sizes.first_frame, sizes.frames});
   }
@@ -260,7 +260,7 @@ EncodedMesh encode_within(MeshSequence sequence, const MeshPlan& plan, const Pro
   result.attributes = std::move(coded.attributes.results);
   result.trials = search.trials();
   result.search_notes = search.notes();
-  for (const EncodedSegment* segment : coded.segments()) {
+  for (const EncodedSegment* segment : coded.encoded()) {
     mesh.segments.push_back(*segment);
     mesh.segments.back().bounds = checked.bounds[mesh.segments.size() - 1];
   }

@@ -7,21 +7,21 @@
 
 namespace anicodec {
 
-std::optional<CodedPart> within_bounds(SegmentCoder& coder, const EncoderInput& input,
-                                       uint32_t first, double rmse) {
+std::optional<CodedSegment> within_bounds(SegmentSearch& search, const EncoderInput& input,
+                                          uint32_t first, double rmse) {
   if (!input.bounds_clips())
-    return coder.at_rmse(rmse);
+    return search.at_rmse(rmse);
   constexpr int kRounds = 5;
   constexpr double kClose = 0.985, kAim = 0.995;
-  std::optional<CodedPart> best;
+  std::optional<CodedSegment> best;
   double asked = rmse;
   for (int round = 0; round < kRounds; ++round) {
-    std::optional<CodedPart> part = coder.at_rmse(asked);
-    if (!part)
+    std::optional<CodedSegment> segment = search.at_rmse(asked);
+    if (!segment)
       break;
-    const double excess = std::ranges::max(input.excesses(part->error, first, rmse));
-    if (excess <= 1 && (!best || part->encoded.bytes() < best->encoded.bytes()))
-      best = std::move(part);
+    const double excess = std::ranges::max(input.excesses(segment->error, first, rmse));
+    if (excess <= 1 && (!best || segment->encoded.bytes() < best->encoded.bytes()))
+      best = std::move(segment);
     if ((excess <= 1 && excess >= kClose) || !(excess > 0))
       break;
     asked *= kAim / excess;

@@ -4,7 +4,7 @@
 #define ANICODEC_CODEC_SEARCH_CLIP_BOUNDS_H_
 
 #include "codec/search/encoder_input.h"
-#include "codec/search/segment_coder.h"
+#include "codec/search/segment_search.h"
 
 #include <cstdint>
 #include <optional>
@@ -13,9 +13,9 @@ namespace anicodec {
 
 /// Codes frames from `first` on so that every clip among them keeps its share of the error `rmse`
 /// (InputClip::tolerance), the worst of them close to it. If no clip has a bound of its own, the
-/// same as SegmentCoder::at_rmse(). Cost: a few searches of the step for each further one.
-std::optional<CodedPart> within_bounds(SegmentCoder& coder, const EncoderInput& input,
-                                       uint32_t first, double rmse);
+/// same as SegmentSearch::at_rmse(). Cost: a few searches of the step for each further one.
+std::optional<CodedSegment> within_bounds(SegmentSearch& search, const EncoderInput& input,
+                                          uint32_t first, double rmse);
 
 }  // namespace anicodec
 

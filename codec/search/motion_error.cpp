@@ -12,17 +12,17 @@
 namespace anicodec {
 namespace {
 
-/// Plays the frames of parts, by the vertices of the source.
+/// Plays the frames of segments, by the vertices of the source.
 class Player {
  public:
-  Player(const std::vector<CodedPart>& parts, const EncoderInput& input)
-      : parts_(parts), input_(input) {}
+  Player(const std::vector<CodedSegment>& segments, const EncoderInput& input)
+      : segments_(segments), input_(input) {}
 
   std::span<const float> frame(uint32_t f) {
-    const auto part = std::ranges::find_if(parts_, [f](const CodedPart& p) {
+    const auto segment = std::ranges::find_if(segments_, [f](const CodedSegment& p) {
       return f < p.encoded.sizes.first_frame + p.encoded.sizes.frames;
     });
-    return by_source(player_.play(part->opened, f - part->encoded.sizes.first_frame));
+    return by_source(player_.play(segment->opened, f - segment->encoded.sizes.first_frame));
   }
 
   std::span<const float> by_source(const float* coded) {
@@ -34,7 +34,7 @@ class Player {
   }
 
  private:
-  const std::vector<CodedPart>& parts_;
+  const std::vector<CodedSegment>& segments_;
   const EncoderInput& input_;
   SegmentPlayer player_;
   std::vector<float> source_;
@@ -42,9 +42,9 @@ class Player {
 
 }  // namespace
 
-double motion_error(ErrorMetric metric, const std::vector<CodedPart>& parts,
+double motion_error(ErrorMetric metric, const std::vector<CodedSegment>& segments,
                     const EncoderInput& input) {
-  Player decoded(parts, input), original(parts, input);
+  Player decoded(segments, input), original(segments, input);
   CompareOptions options;
   options.sted = metric == ErrorMetric::kSted;
   double worst = 0;

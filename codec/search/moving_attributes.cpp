@@ -3,7 +3,7 @@
 #include "codec/search/moving_attributes.h"
 
 #include "codec/plan/encoding_memory.h"
-#include "codec/search/rate_control.h"
+#include "codec/search/basis_search.h"
 #include "codec/segment/reference_pose_encode.h"
 #include "codec/sequence/error.h"
 #include "sdk/clip/attribute_surface.h"
@@ -111,9 +111,10 @@ std::shared_ptr<const EncodedPose> pose_of_entries(const EncodedPose& pose,
   return result;
 }
 
-std::vector<CodedPart> encode_offsets(const EncoderInput& input, const StoredAttribute& stored,
-                                      FrameArray frames, double most, const SearchOptions& options,
-                                      const std::shared_ptr<const EncodedPose>& pose) {
+std::vector<CodedSegment> encode_offsets(const EncoderInput& input, const StoredAttribute& stored,
+                                         FrameArray frames, double most,
+                                         const SearchOptions& options,
+                                         const std::shared_ptr<const EncodedPose>& pose) {
   EncoderInput trajectories(input, stored.surface, std::move(frames));
   trajectories.pose = pose_of_entries(*pose, input.layout, stored);
   SearchOptions attribute_options = options;
@@ -121,10 +122,11 @@ std::vector<CodedPart> encode_offsets(const EncoderInput& input, const StoredAtt
   attribute_options.keyframes.reset();
   const Bound bound{ErrorMetric::kMaxError, most};
   trajectories.bound_clips(std::vector<ClipGoal>(trajectories.clips.size(), {bound, {}, 0}));
-  std::vector<CodedPart> parts = RateControl(trajectories, attribute_options, bound).solve().parts;
-  for (CodedPart& part : parts)
-    part.encoded.reference = pose;
-  return parts;
+  std::vector<CodedSegment> segments =
+      BasisSearch(trajectories, attribute_options, bound).solve().segments;
+  for (CodedSegment& segment : segments)
+    segment.encoded.reference = pose;
+  return segments;
 }
 
 }  // namespace
@@ -145,7 +147,7 @@ MovingAttributes encode_moving_attributes(const EncoderInput& input,
     result.asked = s.bound;
     const OffsetReader reader(input, s);
     const double rounding = kRounding * reader.largest_value();
-    std::vector<CodedPart> parts;
+    std::vector<CodedSegment> segments;
     for (uint32_t first = 0; first < attribute.components; first += 3) {
       Offsets offsets = reader.read(first);
       const double bound = result.asked - offsets.spread - rounding;
@@ -157,14 +159,14 @@ MovingAttributes encode_moving_attributes(const EncoderInput& input,
       if (!pose)
         pose = own_pose(input);
       try {
-        for (CodedPart& part :
+        for (CodedSegment& segment :
              encode_offsets(input, s, std::move(offsets.frames), bound, options, pose)) {
-          Limits::Segment& sizes = part.encoded.sizes;
+          Limits::Segment& sizes = segment.encoded.sizes;
           sizes.attribute = s.number;
           sizes.first_component = first;
           sizes.domain = attribute.domain;
           sizes.entries = s.surface.coded_vertices;
-          parts.push_back(std::move(part));
+          segments.push_back(std::move(segment));
         }
       } catch (const OverMemory& error) {
         throw OverMemory(attribute.name + ": " + error.what());
@@ -172,10 +174,10 @@ MovingAttributes encode_moving_attributes(const EncoderInput& input,
         throw Error(error.kind(), attribute.name + ": " + error.what());
       }
     }
-    for (CodedPart& part : parts) {
-      result.bytes += part.encoded.bytes();
-      result.components = std::max(result.components, part.encoded.sizes.components);
-      out.parts.push_back(std::move(part));
+    for (CodedSegment& segment : segments) {
+      result.bytes += segment.encoded.bytes();
+      result.components = std::max(result.components, segment.encoded.sizes.components);
+      out.segments.push_back(std::move(segment));
     }
     out.results.push_back(std::move(result));
   }

@@ -5,7 +5,7 @@
 
 #include "codec/connectivity/attribute_encode.h"
 #include "codec/plan/encode_result.h"
-#include "codec/search/coded_part.h"
+#include "codec/search/coded_segment.h"
 #include "codec/search/encoder_input.h"
 
 #include <memory>
@@ -16,7 +16,7 @@ namespace anicodec {
 /// Attributes that move, coded: how each came out, and the segments of all of them.
 struct MovingAttributes {
   std::vector<AttributeResult> results;
-  std::vector<CodedPart> parts;
+  std::vector<CodedSegment> segments;
 };
 
 /// Codes how the values of attributes differ from those stored for frame 0, to the error that the options ask for:

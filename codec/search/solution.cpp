@@ -6,31 +6,31 @@
 
 namespace anicodec {
 
-std::vector<const EncodedSegment*> Solution::segments() const {
+std::vector<const EncodedSegment*> Solution::encoded() const {
   std::vector<const EncodedSegment*> list;
-  for (const CodedPart& part : parts)
-    list.push_back(&part.encoded);
+  for (const CodedSegment& segment : segments)
+    list.push_back(&segment.encoded);
   return list;
 }
 
 double Solution::price() const {
   double sum = static_cast<double>(bytes);
-  for (const CodedPart& part : parts)
-    sum += part.opening;
+  for (const CodedSegment& segment : segments)
+    sum += segment.opening;
   return sum;
 }
 
 double Solution::squared_error() const {
   double sum = 0;
-  for (const CodedPart& part : parts)
-    sum += part.error.squared;
+  for (const CodedSegment& segment : segments)
+    sum += segment.error.squared;
   return sum;
 }
 
 double Solution::max_error() const {
   double largest = 0;
-  for (const CodedPart& part : parts)
-    largest = std::max(largest, part.error.max);
+  for (const CodedSegment& segment : segments)
+    largest = std::max(largest, segment.error.max);
   return largest;
 }
 

@@ -3,7 +3,7 @@
 #ifndef ANICODEC_CODEC_SEARCH_SOLUTION_H_
 #define ANICODEC_CODEC_SEARCH_SOLUTION_H_
 
-#include "codec/search/coded_part.h"
+#include "codec/search/coded_segment.h"
 
 #include <cstddef>
 #include <vector>
@@ -12,10 +12,10 @@ namespace anicodec {
 
 /// A way to code the clip.
 struct Solution {
-  std::vector<CodedPart> parts;
+  std::vector<CodedSegment> segments;
   size_t bytes = 0;  ///< of the file
 
-  std::vector<const EncodedSegment*> segments() const;
+  std::vector<const EncodedSegment*> encoded() const;
   /// The bytes, and what opening is worth.
   double price() const;
   double squared_error() const;

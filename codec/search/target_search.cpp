@@ -22,7 +22,7 @@ namespace {
 constexpr double kBehindAtRatio = 1.06;
 
 /// The exponent of bytes over 1 / RMSE; the flatter, the more of the file is mesh.
-constexpr BoundSearch::Exponent kOfSizes{0.5, 0.05, 2};
+constexpr Secant::Exponent kOfSizes{0.5, 0.05, 2};
 
 struct Lowest {
   double ratio = 0, price = std::numeric_limits<double>::infinity();
@@ -49,23 +49,23 @@ Lowest lowest_of(const std::map<double, double>& prices) {
 
 }  // namespace
 
-std::optional<Solution> TargetSearch::at_rmse(SegmentCoder& coder, double rmse) {
-  return listed(within_bounds(coder, input_, 0, rmse));
+std::optional<Solution> TargetSearch::at_rmse(SegmentSearch& search, double rmse) {
+  return listed(within_bounds(search, input_, 0, rmse));
 }
 
-std::optional<Solution> TargetSearch::listed(std::optional<CodedPart> part) {
-  if (!part)
+std::optional<Solution> TargetSearch::listed(std::optional<CodedSegment> segment) {
+  if (!segment)
     return std::nullopt;
-  std::vector<CodedPart> parts;
-  parts.push_back(std::move(*part));
-  return files_.put_together(std::move(parts));
+  std::vector<CodedSegment> segments;
+  segments.push_back(std::move(*segment));
+  return files_.put_together(std::move(segments));
 }
 
-std::optional<Solution> TargetSearch::at_max_error(SegmentCoder& coder, double bound,
+std::optional<Solution> TargetSearch::at_max_error(SegmentSearch& search, double bound,
                                                    const Solution* rival) {
   if (bound == 0) {  // per cent of nothing: all vertices are one point that stands still
     for (const double share : {1.0, 0x1p-4, 0x1p-12}) {
-      std::optional<Solution> trial = at_rmse(coder, share * input_.smallest_bound());
+      std::optional<Solution> trial = at_rmse(search, share * input_.smallest_bound());
       if (trial && trial->max_error() == 0)
         return trial;
     }
@@ -81,7 +81,7 @@ std::optional<Solution> TargetSearch::at_max_error(SegmentCoder& coder, double b
   std::optional<Solution> best;
   std::map<double, double> prices;  // by the ratio
   const auto trial_is_better = [&](double ratio) {
-    std::optional<Solution> trial = at_rmse(coder, bound / ratio);
+    std::optional<Solution> trial = at_rmse(search, bound / ratio);
     if (trial)
       prices[ratio] = trial->price();
     if (!trial || (best && trial->price() >= best->price()))
@@ -91,7 +91,7 @@ std::optional<Solution> TargetSearch::at_max_error(SegmentCoder& coder, double b
   };
   if (effort_ == Effort::kFirst && trial_is_better(kOfPieces))
     return best;
-  const double asked_of_rival = rival ? rival->parts[0].asked : 0;
+  const double asked_of_rival = rival ? rival->segments[0].asked : 0;
   const double first = asked_of_rival > 0 ? bound / asked_of_rival : kUsual;
   trial_is_better(first);
   if (rival && (!best || best->price() > kBehindAtRatio * rival->price()))
@@ -110,17 +110,17 @@ std::optional<Solution> TargetSearch::at_max_error(SegmentCoder& coder, double b
   return best;
 }
 
-std::optional<Solution> TargetSearch::at_motion_error(SegmentCoder& coder, double bound) {
+std::optional<Solution> TargetSearch::at_motion_error(SegmentSearch& search, double bound) {
   // In proportion to the mean error, nearly: a few steps do.
   constexpr int kRounds = 8;
   constexpr double kClose = 0.97, kAim = 0.985, kMostGrowth = 16;
   std::optional<Solution> best;
-  double rmse = typical_rmse(coder);
+  double rmse = typical_rmse(search);
   for (int round = 0; round < kRounds && rmse >= input_.smallest_bound() / 2; ++round) {
-    std::optional<Solution> trial = at_rmse(coder, rmse);
+    std::optional<Solution> trial = at_rmse(search, rmse);
     if (!trial)
       break;
-    const double error = motion_error(bound_.metric, trial->parts, input_);
+    const double error = motion_error(bound_.metric, trial->segments, input_);
     const bool kept = error <= bound, close = error >= kClose * bound;
     if (kept && (!best || trial->price() < best->price()))
       best = std::move(trial);
@@ -133,7 +133,7 @@ std::optional<Solution> TargetSearch::at_motion_error(SegmentCoder& coder, doubl
 
 bool TargetSearch::keeps_motion(const Solution& solution) const {
   return !is_motion(bound_.metric) ||
-         motion_error(bound_.metric, solution.parts, input_) <= bound_.value;
+         motion_error(bound_.metric, solution.segments, input_) <= bound_.value;
 }
 
 double TargetSearch::bytes_asked() const {
@@ -141,22 +141,22 @@ double TargetSearch::bytes_asked() const {
 }
 
 /// By quick trials, which take somewhat more bytes than what at_rmse() ends with.
-double TargetSearch::rmse_of_size(SegmentCoder& coder) {
+double TargetSearch::rmse_of_size(SegmentSearch& search) {
   constexpr int kRounds = 5;
   constexpr double kNear = 0.2;  // of the size
   const double bytes = bytes_asked();
   double rmse = coarsest_rmse() / 1000;
-  BoundSearch search(kOfSizes);
+  Secant secant(kOfSizes);
   for (int round = 0; round < kRounds; ++round) {
-    std::optional<CodedPart> part = coder.near_rmse(rmse);
-    if (!part || !(part->error.squared > 0))
+    std::optional<CodedSegment> segment = search.near_rmse(rmse);
+    if (!segment || !(segment->error.squared > 0))
       break;
-    std::vector<CodedPart> parts;
-    parts.push_back(std::move(*part));
-    const Solution trial = files_.unlisted(std::move(parts));
+    std::vector<CodedSegment> segments;
+    segments.push_back(std::move(*segment));
+    const Solution trial = files_.unlisted(std::move(segments));
     const auto size = static_cast<double>(trial.bytes);
-    search.add(1 / input_.rmse(trial.squared_error()), size);
-    rmse = std::clamp(1 / search.next(bytes, bytes), input_.smallest_bound(), coarsest_rmse());
+    secant.add(1 / input_.rmse(trial.squared_error()), size);
+    rmse = std::clamp(1 / secant.next(bytes, bytes), input_.smallest_bound(), coarsest_rmse());
     if (std::abs(size / bytes - 1) < kNear)
       break;
   }
@@ -168,48 +168,48 @@ double TargetSearch::coarsest_rmse() const {
   return std::max(input_.rmse_of_kg(100), 2 * input_.smallest_bound());
 }
 
-std::optional<Solution> TargetSearch::at_bytes(SegmentCoder& coder, const Solution* rival) {
+std::optional<Solution> TargetSearch::at_bytes(SegmentSearch& search, const Solution* rival) {
   constexpr int kRounds = 12;
   constexpr double kClose = 0.995, kAim = 0.9975, kFarBehind = 1.15, kNarrow = 0.004;
   const double bytes = bytes_asked(), coarsest = coarsest_rmse();
   double finest = input_.smallest_bound(), rmse_of_best = 0;
-  BoundSearch& search = searches_.try_emplace(&coder, kOfSizes).first->second;
-  double rmse = !search.empty() ? 1 / search.next(kAim * bytes, bytes)
+  Secant& secant = secants_.try_emplace(&search, kOfSizes).first->second;
+  double rmse = !secant.empty() ? 1 / secant.next(kAim * bytes, bytes)
                 : rival         ? input_.rmse(rival->squared_error())
-                                : typical_rmse(coder);
+                                : typical_rmse(search);
   std::optional<Solution> best;
   for (int round = 0; round < kRounds; ++round) {
     rmse = std::clamp(rmse, finest, coarsest);
-    std::optional<Solution> trial = at_rmse(coder, rmse);
+    std::optional<Solution> trial = at_rmse(search, rmse);
     if (rival && round == 0 && (!trial || static_cast<double>(trial->bytes) > kFarBehind * bytes))
       return std::nullopt;
-    if (!trial) {  // finer than what the coder can do
+    if (!trial) {  // finer than what the search can do
       finest = rmse;
       rmse = std::sqrt(rmse * coarsest);
       continue;
     }
     const auto size = static_cast<double>(trial->bytes);
-    search.add(1 / rmse, size);
+    secant.add(1 / rmse, size);
     if (size <= bytes && (!best || trial->squared_error() < best->squared_error())) {
       best = std::move(trial);
       rmse_of_best = rmse;
     }
     if (size <= bytes ? size >= kClose * bytes || rmse == finest : rmse == coarsest)
       break;
-    rmse = 1 / search.next(kAim * bytes, bytes);
+    rmse = 1 / secant.next(kAim * bytes, bytes);
     if (best && std::abs(rmse / rmse_of_best - 1) < kNarrow)
       break;
   }
-  return best ? finer(coder, std::move(*best)) : best;
+  return best ? finer(search, std::move(*best)) : best;
 }
 
 /// Sizes vary by some thousandths from one error to the next: somewhat finer ones may fit, too.
-std::optional<Solution> TargetSearch::finer(SegmentCoder& coder, Solution best) {
+std::optional<Solution> TargetSearch::finer(SegmentSearch& search, Solution best) {
   constexpr int kMostMisses = 2;  // in a row
   constexpr double kFiner = 0.008;
   for (int missed = 0; missed < kMostMisses;) {
     const double rmse = (1 - (missed + 1) * kFiner) * input_.rmse(best.squared_error());
-    std::optional<Solution> trial = at_rmse(coder, rmse);
+    std::optional<Solution> trial = at_rmse(search, rmse);
     const bool fits = trial && static_cast<double>(trial->bytes) <= bytes_asked();
     missed = fits ? 0 : missed + 1;
     if (fits)
@@ -218,43 +218,44 @@ std::optional<Solution> TargetSearch::finer(SegmentCoder& coder, Solution best) 
   return best;
 }
 
-std::optional<Solution> TargetSearch::reach(SegmentCoder& coder, const Solution* rival) {
+std::optional<Solution> TargetSearch::reach(SegmentSearch& search, const Solution* rival) {
   if (const std::optional<double> rmse = rmse_asked())
-    return at_rmse(coder, *rmse);
+    return at_rmse(search, *rmse);
   switch (bound_.metric) {
     case ErrorMetric::kMaxError:
-      return at_max_error(coder, bound_.value, rival);
+      return at_max_error(search, bound_.value, rival);
     case ErrorMetric::kDisplacement:
     case ErrorMetric::kSted:
-      return at_motion_error(coder, bound_.value);
+      return at_motion_error(search, bound_.value);
     case ErrorMetric::kSize:
     case ErrorMetric::kBpfv:
-      return at_bytes(coder, rival);
+      return at_bytes(search, rival);
     default:
       return std::nullopt;
   }
 }
 
-std::optional<Solution> TargetSearch::best_of(std::span<LinearCoder* const> coders) {
+std::optional<Solution> TargetSearch::best_of(std::span<LinearSearch* const> searches) {
   // A first trial tells sizes to about 2 %. At a largest error the ratio that is best for the rival need not be so for the other.
   const double far_behind = bound_.metric == ErrorMetric::kMaxError ? kBehindAtRatio : 1.005;
-  std::vector<LinearCoder*> order(coders.begin(), coders.end());
+  std::vector<LinearSearch*> order(searches.begin(), searches.end());
   const std::optional<double> rmse = rmse_asked();
   if (rmse && !input_.bounds_clips()) {
-    std::map<const LinearCoder*, double> bytes;
-    for (LinearCoder* coder : coders)
-      bytes[coder] = 0;
-    parallel_tasks(coders.size(),
-                   [&](size_t i) { bytes.at(coders[i]) = coders[i]->prepare(*rmse); });
-    std::ranges::stable_sort(order, {}, [&](const LinearCoder* coder) { return bytes.at(coder); });
+    std::map<const LinearSearch*, double> bytes;
+    for (LinearSearch* search : searches)
+      bytes[search] = 0;
+    parallel_tasks(searches.size(),
+                   [&](size_t i) { bytes.at(searches[i]) = searches[i]->prepare(*rmse); });
+    std::ranges::stable_sort(order, {},
+                             [&](const LinearSearch* search) { return bytes.at(search); });
   }
   std::optional<Solution> best;
-  size_t left = coders.size();
-  for (LinearCoder* coder : order) {
+  size_t left = searches.size();
+  for (LinearSearch* search : order) {
     input_.expect(expected(left--, true));
     if (best && (rmse || bound_.metric == ErrorMetric::kMaxError))
-      coder->give_up_above(far_behind * coder->bytes(best->parts[0]));
-    keep_better(rmse ? at_rmse(*coder, *rmse) : reach(*coder, best ? &*best : nullptr), &best);
+      search->give_up_above(far_behind * search->bytes(best->segments[0]));
+    keep_better(rmse ? at_rmse(*search, *rmse) : reach(*search, best ? &*best : nullptr), &best);
   }
   return best;
 }
@@ -282,7 +283,7 @@ void TargetSearch::keep_better(std::optional<Solution> solution,
     *best = std::move(solution);
 }
 
-double TargetSearch::typical_rmse(SegmentCoder& coder) {
+double TargetSearch::typical_rmse(SegmentSearch& search) {
   if (const std::optional<double> rmse = rmse_asked())
     return *rmse;
   switch (bound_.metric) {
@@ -294,15 +295,15 @@ double TargetSearch::typical_rmse(SegmentCoder& coder) {
       return input_.rmse_of_kg(5 * bound_.value);  // that of characters, about
     case ErrorMetric::kSize:
     case ErrorMetric::kBpfv:
-      return rmse_of_size(coder);
+      return rmse_of_size(search);
     default:
       return input_.rmse_of_kg(0.1);
   }
 }
 
-TrialsLeft TargetSearch::expected(size_t coders, bool are_chosen) const {
+TrialsLeft TargetSearch::expected(size_t searches, bool are_chosen) const {
   // From searches of dance, horse, chicken, face and flag, default effort (tests/codec/search/recorded_searches.h): of the first
-  // coder and of each other one. Cuts in time and key-frames come last.
+  // kind and of each other one. Cuts in time and key-frames come last.
   constexpr double kOfOneError = 3, kOfSeveral = 10, kOfSize = 25, kOfOther = 1, kSteps = 13,
                    kLast = 7, kWithoutEffort = 3;
   if (effort_ == Effort::kFirst)
@@ -321,8 +322,8 @@ TrialsLeft TargetSearch::expected(size_t coders, bool are_chosen) const {
     default:
       break;
   }
-  const auto of_all = static_cast<double>(coders);
-  const double of_errors = coders == 0 ? 0 : trials + kOfOther * (of_all - 1);
+  const auto of_all = static_cast<double>(searches);
+  const double of_errors = searches == 0 ? 0 : trials + kOfOther * (of_all - 1);
   if (effort_ == Effort::kFast)  // nothing is thorough, and no steps are tried
     return {of_errors + kLast, 0};
   return {(are_chosen ? 0 : kSteps * of_all) + kLast, of_errors};

@@ -4,10 +4,10 @@
 #define ANICODEC_CODEC_SEARCH_TARGET_SEARCH_H_
 
 #include "codec/plan/encode_options.h"
-#include "codec/search/bound_search.h"
 #include "codec/search/encoder_input.h"
-#include "codec/search/linear_coder.h"
-#include "codec/search/segment_coder.h"
+#include "codec/search/linear_search.h"
+#include "codec/search/secant.h"
+#include "codec/search/segment_search.h"
 #include "codec/search/solution.h"
 #include "codec/search/trial_files.h"
 
@@ -18,7 +18,7 @@
 
 namespace anicodec {
 
-/// Finds what one coder does for a target: an error is met directly, a maximum error with
+/// Finds the segment that one kind of basis makes for a target: an error is met directly, a maximum error with
 /// corrections of outliers, a size and an error of the motion by the mean error that leads to it.
 class TargetSearch {
  public:
@@ -26,12 +26,12 @@ class TargetSearch {
   TargetSearch(const EncoderInput& input, const SearchOptions& options, const Bound& bound)
       : input_(input), bound_(bound), effort_(options.effort), files_(input) {}
 
-  /// The best file of a coder that keeps to the target; nothing when there is none. It need not be the
-  /// best if it is far behind `rival`, which another coder made: null for none.
-  std::optional<Solution> reach(SegmentCoder& coder, const Solution* rival = nullptr);
+  /// The best file of a search that keeps to the target; nothing when there is none. It need not be the
+  /// best if it is far behind `rival`, which another search made: null for none.
+  std::optional<Solution> reach(SegmentSearch& search, const Solution* rival = nullptr);
 
-  /// The best of some coders. Targets that are an error let them choose their settings at the same time.
-  std::optional<Solution> best_of(std::span<LinearCoder* const> coders);
+  /// The best of some kinds of basis. Targets that are an error let them choose their settings at the same time.
+  std::optional<Solution> best_of(std::span<LinearSearch* const> searches);
 
   /// The root mean square error that the target is; nothing for a target that only leads to one.
   std::optional<double> rmse_asked() const;
@@ -47,27 +47,27 @@ class TargetSearch {
   bool keeps_motion(const Solution& solution) const;
 
   /// About the root mean square error of a file that keeps to the target; for a size, as quick
-  /// trials of the coder tell.
-  double typical_rmse(SegmentCoder& coder);
+  /// trials of the search tell.
+  double typical_rmse(SegmentSearch& search);
 
-  /// Asks for another size. Knowledge learnt about the coders stays valid.
+  /// Asks for another size. Knowledge learnt about the searches stays valid.
   void ask_size(double bytes) { bound_ = {ErrorMetric::kSize, bytes}; }
 
-  /// About how many trials a search takes that has so many coders yet to search, whose settings are chosen or not.
-  TrialsLeft expected(size_t coders, bool are_chosen) const;
+  /// About how many trials are left with so many kinds of basis yet to search, whose settings are chosen or not.
+  TrialsLeft expected(size_t searches, bool are_chosen) const;
 
   TrialFiles& files() { return files_; }
 
   const TrialFiles& files() const { return files_; }
 
  private:
-  std::optional<Solution> at_rmse(SegmentCoder& coder, double rmse);
-  std::optional<Solution> listed(std::optional<CodedPart> part);
-  std::optional<Solution> at_max_error(SegmentCoder& coder, double bound, const Solution* rival);
-  std::optional<Solution> at_motion_error(SegmentCoder& coder, double bound);
-  std::optional<Solution> at_bytes(SegmentCoder& coder, const Solution* rival);
-  std::optional<Solution> finer(SegmentCoder& coder, Solution best);
-  double rmse_of_size(SegmentCoder& coder);
+  std::optional<Solution> at_rmse(SegmentSearch& search, double rmse);
+  std::optional<Solution> listed(std::optional<CodedSegment> segment);
+  std::optional<Solution> at_max_error(SegmentSearch& search, double bound, const Solution* rival);
+  std::optional<Solution> at_motion_error(SegmentSearch& search, double bound);
+  std::optional<Solution> at_bytes(SegmentSearch& search, const Solution* rival);
+  std::optional<Solution> finer(SegmentSearch& search, Solution best);
+  double rmse_of_size(SegmentSearch& search);
   double coarsest_rmse() const;
   double bytes_asked() const;
 
@@ -75,7 +75,7 @@ class TargetSearch {
   Bound bound_;
   Effort effort_;
   TrialFiles files_;
-  std::map<const SegmentCoder*, BoundSearch> searches_;  ///< of sizes, by 1 / RMSE
+  std::map<const SegmentSearch*, Secant> secants_;  ///< of sizes, by 1 / RMSE
 };
 
 }  // namespace anicodec

@@ -21,7 +21,7 @@ constexpr double kWorthIt = 0.99;  // a cut must save a hundredth
 
 }  // namespace
 
-TimeSegmentation::TimeSegmentation(const EncoderInput& input, const LinearCoder& whole,
+TimeSegmentation::TimeSegmentation(const EncoderInput& input, const LinearSearch& whole,
                                    std::shared_ptr<const EncodedPose> pose, double rmse)
     : input_(input), whole_(whole), pose_(std::move(pose)), rmse_(rmse) {
   FrameView frames = input.frames();
@@ -35,28 +35,28 @@ TimeSegmentation::TimeSegmentation(const EncoderInput& input, const LinearCoder&
   }
 }
 
-LinearCoder TimeSegmentation::coder(const LinearAnalysis& analysis, const FrameRun& range,
-                                    const LinearCoder& like) const {
-  LinearCoder coder(input_, analysis, whole_.kind(), Effort::kFast, 1, whole_.smallest(),
-                    range.first);
-  coder.settings_of(like);
-  coder.share_pose(pose_);
-  return coder;
+LinearSearch TimeSegmentation::search(const LinearAnalysis& analysis, const FrameRun& range,
+                                      const LinearSearch& like) const {
+  LinearSearch search(input_, analysis, whole_.kind(), Effort::kFast, 1, whole_.smallest(),
+                      range.first);
+  search.settings_of(like);
+  search.share_pose(pose_);
+  return search;
 }
 
 LinearAnalysis TimeSegmentation::analysis(const FrameRun& range) const {
   return {whole_.analysis(), range.first, range.count};
 }
 
-double TimeSegmentation::probed(const FrameRun& range, const LinearCoder& like) const {
+double TimeSegmentation::probed(const FrameRun& range, const LinearSearch& like) const {
   const LinearAnalysis of_range = analysis(range);
-  return coder(of_range, range, like).probe(rmse_) + kChunks;
+  return search(of_range, range, like).probe(rmse_) + kChunks;
 }
 
-std::optional<CodedPart> TimeSegmentation::coded(const FrameRun& range) const {
+std::optional<CodedSegment> TimeSegmentation::coded(const FrameRun& range) const {
   const LinearAnalysis of_range = analysis(range);
-  LinearCoder coder_of_range = coder(of_range, range, whole_);
-  return within_bounds(coder_of_range, input_, range.first, rmse_);
+  LinearSearch search_of_range = search(of_range, range, whole_);
+  return within_bounds(search_of_range, input_, range.first, rmse_);
 }
 
 std::optional<uint32_t> TimeSegmentation::candidate(const FrameRun& range) const {
@@ -75,7 +75,7 @@ std::optional<uint32_t> TimeSegmentation::candidate(const FrameRun& range) const
   return std::nullopt;
 }
 
-void TimeSegmentation::split(const FrameRun& range, double bytes, const LinearCoder& like,
+void TimeSegmentation::split(const FrameRun& range, double bytes, const LinearSearch& like,
                              std::vector<FrameRun>* out) const {
   if (std::optional<uint32_t> cut = candidate(range)) {
     FrameRun left{range.first, *cut - range.first};
@@ -120,7 +120,7 @@ std::vector<FrameRun> TimeSegmentation::find() {
     return {all};
   // Parts begin near the error asked for by what this one has learnt.
   const LinearAnalysis of_all = analysis(all);
-  LinearCoder like = coder(of_all, all, whole_);
+  LinearSearch like = search(of_all, all, whole_);
   const double bytes = like.probe(rmse_) + kChunks;
   split(all, bytes, like, &ranges);
   return ranges;

@@ -3,9 +3,9 @@
 #ifndef ANICODEC_CODEC_SEARCH_TIME_SEGMENTATION_H_
 #define ANICODEC_CODEC_SEARCH_TIME_SEGMENTATION_H_
 
-#include "codec/search/coded_part.h"
+#include "codec/search/coded_segment.h"
 #include "codec/search/encoder_input.h"
-#include "codec/search/linear_coder.h"
+#include "codec/search/linear_search.h"
 
 #include <cstdint>
 #include <memory>
@@ -21,7 +21,7 @@ class TimeSegmentation {
  public:
   /// `whole` coded the whole clip, with `pose`, to the error `rmse`. It must outlive this object, and so must
   /// its analysis.
-  TimeSegmentation(const EncoderInput& input, const LinearCoder& whole,
+  TimeSegmentation(const EncoderInput& input, const LinearSearch& whole,
                    std::shared_ptr<const EncodedPose> pose, double rmse);
 
   /// The ranges, in order; one when no cut pays. Clips that follow one another share a range, and
@@ -30,21 +30,21 @@ class TimeSegmentation {
   std::vector<FrameRun> find();
 
   /// A range coded to the error.
-  std::optional<CodedPart> coded(const FrameRun& range) const;
+  std::optional<CodedSegment> coded(const FrameRun& range) const;
 
  private:
   std::vector<FrameRun> of_clips();
-  void split(const FrameRun& range, double bytes, const LinearCoder& like,
+  void split(const FrameRun& range, double bytes, const LinearSearch& like,
              std::vector<FrameRun>* out) const;
   std::optional<uint32_t> candidate(const FrameRun& range) const;
-  /// The bytes of a range by the settings of another coder.
-  double probed(const FrameRun& range, const LinearCoder& like) const;
+  /// The bytes of a range by the settings of another search.
+  double probed(const FrameRun& range, const LinearSearch& like) const;
   LinearAnalysis analysis(const FrameRun& range) const;
-  LinearCoder coder(const LinearAnalysis& analysis, const FrameRun& range,
-                    const LinearCoder& like) const;
+  LinearSearch search(const LinearAnalysis& analysis, const FrameRun& range,
+                      const LinearSearch& like) const;
 
   const EncoderInput& input_;
-  const LinearCoder& whole_;
+  const LinearSearch& whole_;
   std::shared_ptr<const EncodedPose> pose_;
   double rmse_;
   std::vector<double> motion_;  ///< squared distance of each frame from the one before

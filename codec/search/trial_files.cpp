@@ -15,27 +15,27 @@ TrialFiles::TrialFiles(const EncoderInput& input)
       record_(clips_record(input.sequence, input.described,
                            std::vector<ClipGoal>(input.clips.size()))) {}
 
-Solution TrialFiles::unlisted(std::vector<CodedPart> parts) const {
+Solution TrialFiles::unlisted(std::vector<CodedSegment> segments) const {
   Solution solution;
-  solution.parts = std::move(parts);
-  for (CodedPart& part : solution.parts) {
-    const Limits::Segment& sizes = part.encoded.sizes;
+  solution.segments = std::move(segments);
+  for (CodedSegment& segment : solution.segments) {
+    const Limits::Segment& sizes = segment.encoded.sizes;
     FrameView frames = input_.frames(sizes.first_frame, sizes.frames);
     if (input_.caps_errors()) {
-      correct(frames, input_.copies, input_.caps(sizes.first_frame, sizes.frames), part.opened,
-              part.encoded);
-      part.error = measure(part.opened, frames, input_.copies);
+      correct(frames, input_.copies, input_.caps(sizes.first_frame, sizes.frames), segment.opened,
+              segment.encoded);
+      segment.error = measure(segment.opened, frames, input_.copies);
     }
   }
-  solution.bytes = clip_file_bytes(record_, input_.layout, solution.segments());
+  solution.bytes = clip_file_bytes(record_, input_.layout, solution.encoded());
   return solution;
 }
 
-Solution TrialFiles::put_together(std::vector<CodedPart> parts) {
-  Solution solution = unlisted(std::move(parts));
+Solution TrialFiles::put_together(std::vector<CodedSegment> segments) {
+  Solution solution = unlisted(std::move(segments));
   std::string what;
-  for (const CodedPart& part : solution.parts)
-    what += (what.empty() ? "" : " + ") + part.what;
+  for (const CodedSegment& segment : solution.segments)
+    what += (what.empty() ? "" : " + ") + segment.what;
   trials_.push_back(
       {what, solution.bytes, input_.rmse(solution.squared_error()), solution.max_error()});
   return solution;

@@ -12,16 +12,16 @@
 
 namespace anicodec {
 
-/// Puts coded parts together to files, and lists what they measured.
+/// Puts coded segments together to files, and lists what they measured.
 class TrialFiles {
  public:
   /// Parts are corrected to the caps of the input, which must outlive this object.
   explicit TrialFiles(const EncoderInput& input);
 
-  Solution put_together(std::vector<CodedPart> parts);
+  Solution put_together(std::vector<CodedSegment> segments);
 
   /// The same, for trials that only show the way: the list does not have them.
-  Solution unlisted(std::vector<CodedPart> parts) const;
+  Solution unlisted(std::vector<CodedSegment> segments) const;
 
   const std::vector<Trial>& trials() const { return trials_; }
 

@@ -23,19 +23,19 @@ namespace anicodec {
 inline Bytes two_segments(const MeshSequence& clip) {
   EncoderInput input(clip);
   LinearAnalysis analysis(input.frames());
-  LinearCoder whole(input, analysis, BasisKind::kEigenshapes, Effort::kFast, 1, true);
+  LinearSearch whole(input, analysis, BasisKind::kEigenshapes, Effort::kFast, 1, true);
   const double rmse = 0.0005 * diagonal(clip);
-  std::optional<CodedPart> one = whole.at_rmse(rmse);
+  std::optional<CodedSegment> one = whole.at_rmse(rmse);
   TimeSegmentation segmentation(input, whole, one->encoded.reference, rmse);
   const uint32_t half = clip.frame_count / 2;
-  std::vector<CodedPart> parts;
+  std::vector<CodedSegment> segments;
   for (uint32_t first : {0U, half}) {
-    std::optional<CodedPart> part =
+    std::optional<CodedSegment> segment =
         segmentation.coded({first, first == 0 ? half : clip.frame_count - half});
-    part->encoded.sizes.first_frame = first;
-    parts.push_back(std::move(*part));
+    segment->encoded.sizes.first_frame = first;
+    segments.push_back(std::move(*segment));
   }
-  return clip_file(ClipsRecord{}, input.layout, {&parts[0].encoded, &parts[1].encoded});
+  return clip_file(ClipsRecord{}, input.layout, {&segments[0].encoded, &segments[1].encoded});
 }
 
 inline const Bytes& cut_clip() {

@@ -34,23 +34,23 @@ TEST(TimeSegmentation, SegmentsShareAPoseAndPlayInAnyOrder) {
   MeshSequence clip = two_takes();
   EncoderInput input(clip);
   LinearAnalysis analysis(input.frames());
-  LinearCoder whole(input, analysis, BasisKind::kEigentrajectories, Effort::kFast, 1, true);
+  LinearSearch whole(input, analysis, BasisKind::kEigentrajectories, Effort::kFast, 1, true);
   double rmse = 0.0005 * diagonal(clip);
-  std::optional<CodedPart> one = whole.at_rmse(rmse);
+  std::optional<CodedSegment> one = whole.at_rmse(rmse);
   ASSERT_TRUE(one);
   TimeSegmentation segmentation(input, whole, one->encoded.reference, rmse);
-  std::vector<CodedPart> parts;
+  std::vector<CodedSegment> segments;
   for (uint32_t first : {0U, 70U}) {
-    std::optional<CodedPart> part = segmentation.coded({first, 70});
-    ASSERT_TRUE(part);
-    part->encoded.sizes.first_frame = first;
-    parts.push_back(std::move(*part));
+    std::optional<CodedSegment> segment = segmentation.coded({first, 70});
+    ASSERT_TRUE(segment);
+    segment->encoded.sizes.first_frame = first;
+    segments.push_back(std::move(*segment));
   }
   Clip opened;
-  Bytes file = clip_file(ClipsRecord{}, input.layout, {&parts[0].encoded, &parts[1].encoded});
+  Bytes file = clip_file(ClipsRecord{}, input.layout, {&segments[0].encoded, &segments[1].encoded});
   ASSERT_TRUE(opened.open(file).ok());
   EXPECT_TRUE(opened.check_hashes().ok());
-  ASSERT_EQ(opened.segments().size(), 2U);
+  ASSERT_EQ(opened.encoded().size(), 2U);
 
   std::vector<float> a(2700), b(2700);
   double squared = 0;
@@ -71,7 +71,7 @@ TEST(TimeSegmentation, LeavesOneMotionInOnePiece) {
   options.effort = Effort::kFast;
   Clip opened;
   ASSERT_TRUE(opened.open(encode(clip, options).file).ok());
-  EXPECT_EQ(opened.segments().size(), 1U);
+  EXPECT_EQ(opened.encoded().size(), 1U);
 }
 
 }  // namespace

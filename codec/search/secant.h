@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_CODEC_SEARCH_BOUND_SEARCH_H_
-#define ANICODEC_CODEC_SEARCH_BOUND_SEARCH_H_
+#ifndef ANICODEC_CODEC_SEARCH_SECANT_H_
+#define ANICODEC_CODEC_SEARCH_SECANT_H_
 
 #include <vector>
 
@@ -10,14 +10,14 @@ namespace anicodec {
 /// Finds the largest setting whose outcome keeps to a bound: the step of a quantiser for an error,
 /// the fineness of a file for its size. Outcomes go about as a power of the setting, and scatter by
 /// some thousandths.
-class BoundSearch {
+class Secant {
  public:
   /// The exponent: the usual one until trials tell it, and the least and the most to believe.
   struct Exponent {
     double usual, least, most;
   };
 
-  explicit BoundSearch(const Exponent& exponent) : exponent_(exponent) {}
+  explicit Secant(const Exponent& exponent) : exponent_(exponent) {}
 
   bool empty() const { return trials_.empty(); }
 
@@ -44,4 +44,4 @@ class BoundSearch {
 
 }  // namespace anicodec
 
-#endif  // ANICODEC_CODEC_SEARCH_BOUND_SEARCH_H_
+#endif  // ANICODEC_CODEC_SEARCH_SECANT_H_

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_CODEC_SEARCH_LINEAR_CODER_H_
-#define ANICODEC_CODEC_SEARCH_LINEAR_CODER_H_
+#ifndef ANICODEC_CODEC_SEARCH_LINEAR_SEARCH_H_
+#define ANICODEC_CODEC_SEARCH_LINEAR_SEARCH_H_
 
-#include "codec/search/bound_search.h"
 #include "codec/search/encoder_input.h"
 #include "codec/search/linear_bases.h"
 #include "codec/search/linear_choice.h"
 #include "codec/search/linear_steps.h"
-#include "codec/search/segment_coder.h"
+#include "codec/search/secant.h"
+#include "codec/search/segment_search.h"
 #include "codec/segment/linear_basis.h"
 #include "codec/segment/linear_segment_encode.h"
 
@@ -21,33 +21,33 @@
 
 namespace anicodec {
 
-/// Codes a segment by eigenshapes or eigentrajectories: finds the pose, the base and the settings
+/// Searches how eigenshapes or eigentrajectories code a segment: finds the pose, the base and the settings
 /// that give the smallest streams, and the step that meets an error.
-class LinearCoder : public SegmentCoder {
+class LinearSearch : public SegmentSearch {
  public:
   /// Steps that are tried: those that kinds are compared after, all of the effort, and those that speed opening, too.
   enum class Steps { kFew, kAll, kOpening };
 
-  /// The analysis, of the frames from `first_frame` on, must outlive the coder. Bytes below include
+  /// The analysis, of the frames from `first_frame` on, must outlive the search. Bytes below include
   /// the worth of opening time, unless the `smallest` file is wanted.
-  LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis, BasisKind kind,
-              Effort effort, uint32_t layers, bool smallest, uint32_t first_frame = 0);
+  LinearSearch(const EncoderInput& input, const LinearAnalysis& analysis, BasisKind kind,
+               Effort effort, uint32_t layers, bool smallest, uint32_t first_frame = 0);
 
-  std::optional<CodedPart> at_rmse(double rmse) override;
-  std::optional<CodedPart> near_rmse(double rmse) override;
+  std::optional<CodedSegment> at_rmse(double rmse) override;
+  std::optional<CodedSegment> near_rmse(double rmse) override;
 
   /// Chooses settings for an error by steps, or goes on with those that a call before left. About the bytes that they take
   /// before joint rounding; 0 for Effort::kFirst.
   double choose_settings(double rmse, Steps wanted);
 
-  /// Chooses settings for an error, and tells about the bytes of the part that at_rmse() makes of it.
+  /// Chooses settings for an error, and tells about the bytes of the segment that at_rmse() makes of it.
   double prepare(double rmse);
 
   /// Makes the next at_rmse() give up once it is about to take more bytes.
   void give_up_above(double bytes) { most_bytes_ = bytes; }
 
-  /// The bytes that a part takes in the file, and the price of its opening.
-  double bytes(const CodedPart& part) const;
+  /// The bytes that a segment takes in the file, and the price of its opening.
+  double bytes(const CodedSegment& segment) const;
 
   BasisKind kind() const { return kind_; }
 
@@ -55,12 +55,12 @@ class LinearCoder : public SegmentCoder {
 
   bool smallest() const { return smallest_; }
 
-  /// Makes the coder use a pose that the file has already, with a base that is an affine image of
+  /// Makes the search use a pose that the file has already, with a base that is an affine image of
   /// it, and the settings as they are.
   void share_pose(std::shared_ptr<const EncodedPose> pose);
 
-  /// Takes over the settings of another coder, and with what means it codes.
-  void settings_of(const LinearCoder& other) {
+  /// Takes over the settings of another search, and with what means it codes.
+  void settings_of(const LinearSearch& other) {
     choice_.settings = other.choice_.settings;
     choice_.settings.run_steps.clear();  // of other clips
     choice_.regions = other.choice_.regions;
@@ -79,8 +79,8 @@ class LinearCoder : public SegmentCoder {
   /// The same from as few trials as come close to the error, three at most, and with regions.
   double probe(double rmse);
 
-  /// Tries a step that speeds opening only if another coder, which has tried all of them, kept it.
-  void open_like(const LinearCoder& other);
+  /// Tries a step that speeds opening only if another search, which has tried all of them, kept it.
+  void open_like(const LinearSearch& other);
 
   /// Whether regions may take off some of what one trial costs.
   bool tries_regions() const;
@@ -90,7 +90,7 @@ class LinearCoder : public SegmentCoder {
   static constexpr double kLeastExponent = 0.35, kMostExponent = 1.5;  // of errors over steps
 
   struct Measured {
-    CodedPart part;
+    CodedSegment segment;
     double rmse = 0;   ///< where clips have bounds, that of the clip furthest from its own
     double bytes = 0;  ///< as they would be at the error asked for
     std::vector<double> excesses;  ///< of clips with bounds
@@ -112,11 +112,11 @@ class LinearCoder : public SegmentCoder {
   /// A way to the error asked for, by some settings: trials that come closer.
   struct Approach {
     explicit Approach(LinearChoice by)
-        : choice(std::move(by)), search({choice.exponent, kLeastExponent, kMostExponent}) {}
+        : choice(std::move(by)), secant({choice.exponent, kLeastExponent, kMostExponent}) {}
 
     LinearChoice choice, tried;
-    BoundSearch search;
-    std::optional<CodedPart> best;
+    Secant secant;
+    std::optional<CodedSegment> best;
     double estimated = 0;  ///< step
     double expected = 0;   ///< bytes, as the first trial tells
     double closest = 0;    ///< ratio of errors to the one asked for, of trials that keep to it
@@ -138,9 +138,9 @@ class LinearCoder : public SegmentCoder {
   static void even_out(const Measured& trial, LinearChoice& choice);
   static void learn(const Measured& trial, double rmse, LinearChoice& choice);
   bool try_steps(std::span<const LinearStep> steps, double rmse);
-  void turn_down(double rmse, CodedPart& best);
+  void turn_down(double rmse, CodedSegment& best);
   void advance(Approach& approach);
-  std::optional<CodedPart> reached(Approach& approach);
+  std::optional<CodedSegment> reached(Approach& approach);
 
   const EncoderInput& input_;
   const LinearAnalysis& analysis_;
@@ -167,4 +167,4 @@ class LinearCoder : public SegmentCoder {
 
 }  // namespace anicodec
 
-#endif  // ANICODEC_CODEC_SEARCH_LINEAR_CODER_H_
+#endif  // ANICODEC_CODEC_SEARCH_LINEAR_SEARCH_H_

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/search/rate_control.h"
+#include "codec/search/basis_search.h"
 
 #include "codec/motion/motion_products.h"
 #include "codec/parallel/parallel.h"
@@ -33,7 +33,7 @@ constexpr double kHopelessMsgi = 8;
 
 }  // namespace
 
-Solution RateControl::solve() {
+Solution BasisSearch::solve() {
   notes_.clear();
   constexpr double kProbes = 8;
   TrialsLeft all = search_.expected(options_.basis == BasisChoice::kAuto ? 2 : 1, false);
@@ -52,34 +52,34 @@ Solution RateControl::solve() {
   if (!best)
     fail();
   if (!is_size(bound_.metric)) {  // nobody asks again
-    linear_coders_.clear();
-    keyframe_coders_.clear();
+    linear_searches_.clear();
+    keyframe_searches_.clear();
     analysis_.reset();
   }
-  for (CodedPart& part : best->parts) {
-    if (!part.encoded.corrections.empty())  // added after it was opened: its hash covers them
-      part.opened = open_encoded(part.encoded, input_.layout);
+  for (CodedSegment& segment : best->segments) {
+    if (!segment.encoded.corrections.empty())  // added after it was opened: its hash covers them
+      segment.opened = open_encoded(segment.encoded, input_.layout);
   }
   return std::move(*best);
 }
 
 /// Each clip by a basis of its own, which may be as fine as it needs.
-std::optional<Solution> RateControl::clip_by_clip() {
-  std::vector<CodedPart> parts;
+std::optional<Solution> BasisSearch::clip_by_clip() {
+  std::vector<CodedSegment> segments;
   for (size_t c = 0; c < input_.clips.size(); ++c) {
     const EncoderInput clip(input_, c);
     Bound own = bound_;
     if (own.metric != ErrorMetric::kKg)
       own.value *= input_.clips[c].tolerance;
-    for (CodedPart& part : RateControl(clip, options_, own).solve().parts) {
-      part.encoded.sizes.first_frame += input_.clips[c].frames.first;
-      parts.push_back(std::move(part));
+    for (CodedSegment& segment : BasisSearch(clip, options_, own).solve().segments) {
+      segment.encoded.sizes.first_frame += input_.clips[c].frames.first;
+      segments.push_back(std::move(segment));
     }
   }
-  return search_.files().put_together(std::move(parts));
+  return search_.files().put_together(std::move(segments));
 }
 
-std::optional<Solution> RateControl::of_all_clips() {
+std::optional<Solution> BasisSearch::of_all_clips() {
   std::optional<Solution> best;
   if (options_.basis == BasisChoice::kKeyframes || options_.keyframes) {
     best = by_keyframes_alone();
@@ -87,15 +87,15 @@ std::optional<Solution> RateControl::of_all_clips() {
     best = by_linear_bases();
     // In a long clip only if nothing else keeps the target.
     if (tries_keyframes(!best) && !(best && beats_keyframes(*best))) {
-      if (keyframe_coders_.empty())
-        add_keyframe_coder(Reconstruction::kLinear);
+      if (keyframe_searches_.empty())
+        add_keyframe_search(Reconstruction::kLinear);
       if (best && search_.rmse_asked())
-        keyframe_coders_[0]->give_up_above(kHopeless * static_cast<double>(best->bytes));
-      offer(*keyframe_coders_[0], &best);
+        keyframe_searches_[0]->give_up_above(kHopeless * static_cast<double>(best->bytes));
+      offer(*keyframe_searches_[0], &best);
     }
     if (best && allows_msgi())
       try_msgi(&*best);
-    if (options_.basis == BasisChoice::kAuto && keyframe_coders_.empty() &&
+    if (options_.basis == BasisChoice::kAuto && keyframe_searches_.empty() &&
         input_.sequence.frame_count > kMostMultiplied)
       notes_.push_back("key-frames are not tried: the clip has more than " +
                        std::to_string(kMostMultiplied) + " frames");
@@ -103,35 +103,35 @@ std::optional<Solution> RateControl::of_all_clips() {
   return best;
 }
 
-Solution RateControl::solve_within(double bytes) {
+Solution BasisSearch::solve_within(double bytes) {
   bound_ = {ErrorMetric::kSize, bytes};
   search_.ask_size(bytes);
   return solve();
 }
 
-void RateControl::add_keyframe_coder(Reconstruction reconstruction) {
+void BasisSearch::add_keyframe_search(Reconstruction reconstruction) {
   input_.begin(SearchStep::kAnalysis);
-  keyframe_coders_.push_back(std::make_unique<KeyframeCoder>(
+  keyframe_searches_.push_back(std::make_unique<KeyframeSearch>(
       input_, options_.select, options_.keyframes, options_.keyframe_poses, reconstruction));
 }
 
-void RateControl::offer(SegmentCoder& coder, std::optional<Solution>* best) {
-  search_.keep_better(search_.reach(coder, best->has_value() ? &**best : nullptr), best);
+void BasisSearch::offer(SegmentSearch& search, std::optional<Solution>* best) {
+  search_.keep_better(search_.reach(search, best->has_value() ? &**best : nullptr), best);
 }
 
-bool RateControl::tries_keyframes(bool of_any_clip) const {
+bool BasisSearch::tries_keyframes(bool of_any_clip) const {
   return options_.basis == BasisChoice::kAuto && !input_.pose &&
          (of_any_clip || input_.sequence.frame_count <= kMostMultiplied);
 }
 
-bool RateControl::allows_msgi() const {
+bool BasisSearch::allows_msgi() const {
   return tries_keyframes(false) && options_.effort > Effort::kFirst &&
          options_.interpolation.value_or(InterpolationChoice::kAuto) !=
              InterpolationChoice::kLinear &&
          input_.layout.sizes.triangles > 0;
 }
 
-void RateControl::try_msgi(Solution* best) {
+void BasisSearch::try_msgi(Solution* best) {
   const double rmse = input_.rmse(best->squared_error());
   const double keyframe = kBitsOfMsgi / 8 * 3 * input_.layout.sizes.coded_vertices;
   const auto most = static_cast<size_t>(kClearly * static_cast<double>(best->bytes) / keyframe);
@@ -147,13 +147,13 @@ void RateControl::try_msgi(Solution* best) {
     return note("halfway between " + std::to_string(count) +
                 " key-frames, which take as many bytes, an RMSE of " + four_digits(*left) +
                 " is left");
-  if (!msgi_coder_)
-    msgi_coder_ = std::make_unique<KeyframeCoder>(input_, options_.select, std::nullopt,
-                                                  options_.keyframe_poses, Reconstruction::kMsgi);
-  msgi_coder_->take_at_most(count);
+  if (!msgi_search_)
+    msgi_search_ = std::make_unique<KeyframeSearch>(input_, options_.select, std::nullopt,
+                                                    options_.keyframe_poses, Reconstruction::kMsgi);
+  msgi_search_->take_at_most(count);
   std::optional<Solution> solution;
   try {
-    solution = search_.reach(*msgi_coder_, best);
+    solution = search_.reach(*msgi_search_, best);
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::kInternal)
       throw;
@@ -169,38 +169,38 @@ void RateControl::try_msgi(Solution* best) {
     note("the file is not a tenth smaller");
 }
 
-void RateControl::note(const std::string& reason) {
+void BasisSearch::note(const std::string& reason) {
   notes_.push_back("key-frames by MSGI are not taken: " + reason);
 }
 
-std::optional<Solution> RateControl::by_keyframes_alone() {
-  const bool is_first = keyframe_coders_.empty();
+std::optional<Solution> BasisSearch::by_keyframes_alone() {
+  const bool is_first = keyframe_searches_.empty();
   if (is_first &&
       options_.interpolation.value_or(InterpolationChoice::kLinear) != InterpolationChoice::kMsgi)
-    add_keyframe_coder(Reconstruction::kLinear);
+    add_keyframe_search(Reconstruction::kLinear);
   if (is_first &&
       options_.interpolation.value_or(InterpolationChoice::kLinear) != InterpolationChoice::kLinear)
-    add_keyframe_coder(Reconstruction::kMsgi);
+    add_keyframe_search(Reconstruction::kMsgi);
   std::optional<Solution> best;
-  for (std::unique_ptr<KeyframeCoder>& coder : keyframe_coders_) {
+  for (std::unique_ptr<KeyframeSearch>& search : keyframe_searches_) {
     if (bound_.metric != ErrorMetric::kNone) {
-      offer(*coder, &best);
+      offer(*search, &best);
       continue;
     }
     // All take about the same bytes: what counts is the error.
-    std::vector<CodedPart> parts;
-    parts.push_back(coder->at_count());
-    Solution solution = search_.files().put_together(std::move(parts));
+    std::vector<CodedSegment> segments;
+    segments.push_back(search->at_count());
+    Solution solution = search_.files().put_together(std::move(segments));
     if (!best || solution.squared_error() < best->squared_error())
       best = std::move(solution);
   }
   if (!best)
-    fail(*keyframe_coders_[0]);
+    fail(*keyframe_searches_[0]);
   return best;
 }
 
-RateControl::LinearCoders RateControl::linear_coders(const LinearAnalysis& analysis) {
-  LinearCoders coders;
+BasisSearch::LinearSearches BasisSearch::linear_searches(const LinearAnalysis& analysis) {
+  LinearSearches searches;
   for (BasisKind kind : {BasisKind::kEigentrajectories, BasisKind::kEigenshapes}) {
     BasisChoice choice = kind == BasisKind::kEigenshapes ? BasisChoice::kEigenshapes
                                                          : BasisChoice::kEigentrajectories;
@@ -209,86 +209,87 @@ RateControl::LinearCoders RateControl::linear_coders(const LinearAnalysis& analy
             ? options_.effort > Effort::kFirst || kind == BasisKind::kEigentrajectories
             : options_.basis == choice;
     if (wanted)
-      coders.push_back(std::make_unique<LinearCoder>(input_, analysis, kind, options_.effort,
-                                                     kLayers, options_.smallest));
+      searches.push_back(std::make_unique<LinearSearch>(input_, analysis, kind, options_.effort,
+                                                        kLayers, options_.smallest));
   }
-  for (std::unique_ptr<LinearCoder>& coder : coders) {
+  for (std::unique_ptr<LinearSearch>& search : searches) {
     if (input_.pose)
-      coder->share_pose(input_.pose);
+      search->share_pose(input_.pose);
   }
-  if (coders.size() == 2) {
+  if (searches.size() == 2) {
     // The smaller kind comes first. One that a trial shows to be far behind is not searched.
-    double rmse = search_.typical_rmse(*coders[0]);
+    double rmse = search_.typical_rmse(*searches[0]);
     std::vector<double> bytes(2);
     const auto probe = [&](const auto& bytes_of) {
-      parallel_tasks(coders.size(), [&](size_t i) { bytes[i] = bytes_of(*coders[i]); });
-      if (coders.size() == 2 && bytes[1] < bytes[0]) {
-        std::swap(coders[0], coders[1]);
+      parallel_tasks(searches.size(), [&](size_t i) { bytes[i] = bytes_of(*searches[i]); });
+      if (searches.size() == 2 && bytes[1] < bytes[0]) {
+        std::swap(searches[0], searches[1]);
         std::swap(bytes[0], bytes[1]);
       }
     };
-    probe([&](LinearCoder& coder) { return coder.probe_once(rmse); });
-    if (bytes[1] > kHopeless * bytes[0] && !coders[1]->tries_regions())
-      coders.pop_back();
-    probe([&](LinearCoder& coder) { return coder.probe(rmse); });
+    probe([&](LinearSearch& search) { return search.probe_once(rmse); });
+    if (bytes[1] > kHopeless * bytes[0] && !searches[1]->tries_regions())
+      searches.pop_back();
+    probe([&](LinearSearch& search) { return search.probe(rmse); });
     const auto is_behind = [&](const double(&factors)[2]) {
-      return coders.size() == 2 &&
-             bytes[1] > factors[coders[1]->kind() == BasisKind::kEigenshapes] * bytes[0];
+      return searches.size() == 2 &&
+             bytes[1] > factors[searches[1]->kind() == BasisKind::kEigenshapes] * bytes[0];
     };
     if (is_behind(kFarBehind))
-      coders.pop_back();
-    input_.expect(search_.expected(coders.size(), false));
-    for (const LinearCoder::Steps steps : {LinearCoder::Steps::kFew, LinearCoder::Steps::kAll}) {
-      probe([&](LinearCoder& coder) { return coder.choose_settings(rmse, steps); });
+      searches.pop_back();
+    input_.expect(search_.expected(searches.size(), false));
+    for (const LinearSearch::Steps steps : {LinearSearch::Steps::kFew, LinearSearch::Steps::kAll}) {
+      probe([&](LinearSearch& search) { return search.choose_settings(rmse, steps); });
       if (is_behind(kBehind))
-        coders.pop_back();
+        searches.pop_back();
     }
-    coders[0]->choose_settings(rmse, LinearCoder::Steps::kOpening);
-    if (coders.size() == 2)
-      coders[1]->open_like(*coders[0]);
+    searches[0]->choose_settings(rmse, LinearSearch::Steps::kOpening);
+    if (searches.size() == 2)
+      searches[1]->open_like(*searches[0]);
   }
-  return coders;
+  return searches;
 }
 
-std::optional<Solution> RateControl::by_linear_bases() {
+std::optional<Solution> BasisSearch::by_linear_bases() {
   if (!analysis_) {
     analysis_.emplace(input_.frames());
-    linear_coders_ = linear_coders(*analysis_);
-    input_.expect(search_.expected(linear_coders_.size(), options_.basis == BasisChoice::kAuto));
+    linear_searches_ = linear_searches(*analysis_);
+    input_.expect(search_.expected(linear_searches_.size(), options_.basis == BasisChoice::kAuto));
   }
-  std::vector<LinearCoder*> coders;
-  for (const std::unique_ptr<LinearCoder>& coder : linear_coders_)
-    coders.push_back(coder.get());
-  std::optional<Solution> best = search_.best_of(coders);
+  std::vector<LinearSearch*> searches;
+  for (const std::unique_ptr<LinearSearch>& search : linear_searches_)
+    searches.push_back(search.get());
+  std::optional<Solution> best = search_.best_of(searches);
   input_.expect(search_.expected(0, true));
   if (!best || options_.effort == Effort::kFirst)
     return best;
-  const BasisKind kind = best->parts[0].encoded.sizes.kind;
-  const auto used = std::ranges::find_if(linear_coders_,
-                                         [&](const auto& coder) { return coder->kind() == kind; });
+  const BasisKind kind = best->segments[0].encoded.sizes.kind;
+  const auto used = std::ranges::find_if(
+      linear_searches_, [&](const auto& search) { return search->kind() == kind; });
   std::optional<Solution> cut = cut_in_time(*best, **used);
   return cut && search_.better(*cut, *best) && search_.keeps_motion(*cut) ? std::move(cut)
                                                                           : std::move(best);
 }
 
-std::optional<Solution> RateControl::cut_in_time(const Solution& whole, const LinearCoder& coder) {
-  double rmse = whole.parts[0].asked;
-  TimeSegmentation segmentation(input_, coder, whole.parts[0].encoded.reference, rmse);
+std::optional<Solution> BasisSearch::cut_in_time(const Solution& whole,
+                                                 const LinearSearch& search) {
+  double rmse = whole.segments[0].asked;
+  TimeSegmentation segmentation(input_, search, whole.segments[0].encoded.reference, rmse);
   std::vector<FrameRun> runs = segmentation.find();
   if (runs.size() < 2)
     return std::nullopt;
-  std::vector<CodedPart> parts;
+  std::vector<CodedSegment> segments;
   for (const FrameRun& run : runs) {
-    std::optional<CodedPart> part = segmentation.coded(run);
-    if (!part)
+    std::optional<CodedSegment> segment = segmentation.coded(run);
+    if (!segment)
       return std::nullopt;
-    part->encoded.sizes.first_frame = run.first;
-    parts.push_back(std::move(*part));
+    segment->encoded.sizes.first_frame = run.first;
+    segments.push_back(std::move(*segment));
   }
-  return search_.files().put_together(std::move(parts));
+  return search_.files().put_together(std::move(segments));
 }
 
-bool RateControl::beats_keyframes(const Solution& solution) const {
+bool BasisSearch::beats_keyframes(const Solution& solution) const {
   // No fewer key-frames than principal components can do, each at a bit per coordinate and a quarter
   // of a bit per frame at least.
   constexpr double kBits = 1, kBitsOfWeight = 0.25;
@@ -300,7 +301,7 @@ bool RateControl::beats_keyframes(const Solution& solution) const {
          static_cast<double>(solution.bytes);
 }
 
-void RateControl::fail() const {
+void BasisSearch::fail() const {
   std::string text = "the target cannot be reached";
   if (is_size(bound_.metric)) {
     auto smallest = std::ranges::min_element(trials(), {}, &Trial::bytes);
@@ -310,7 +311,7 @@ void RateControl::fail() const {
   throw Error(ErrorKind::kUsage, text);
 }
 
-void RateControl::fail(KeyframeCoder& keyframes) const {
+void BasisSearch::fail(KeyframeSearch& keyframes) const {
   std::string text = "the target cannot be reached";
   if (options_.keyframes) {
     double rmse = input_.rmse(keyframes.at_count().error.squared);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/search/keyframe_coder.h"
+#include "codec/search/keyframe_search.h"
 
 #include "codec/keyframes/keyframe_count.h"
 #include "codec/segment/keyframe_segment_encode.h"
@@ -33,9 +33,9 @@ std::vector<uint32_t> spread_frames(size_t frames, size_t count) {
 
 }  // namespace
 
-KeyframeCoder::KeyframeCoder(const EncoderInput& input, KeyframeMethod method,
-                             std::optional<uint32_t> count, KeyframePoses poses,
-                             Reconstruction reconstruction)
+KeyframeSearch::KeyframeSearch(const EncoderInput& input, KeyframeMethod method,
+                               std::optional<uint32_t> count, KeyframePoses poses,
+                               Reconstruction reconstruction)
     : input_(input),
       fitter_(input.frames()),
       method_(method),
@@ -58,7 +58,7 @@ KeyframeCoder::KeyframeCoder(const EncoderInput& input, KeyframeMethod method,
   }
 }
 
-const MsgiFit& KeyframeCoder::interpolated(size_t count) {
+const MsgiFit& KeyframeSearch::interpolated(size_t count) {
   auto [found, is_new] = interpolated_.try_emplace(count);
   if (is_new) {
     std::vector<KeyframeFit> fits{fitter_.fit(count, method_, weights_)};
@@ -69,7 +69,7 @@ const MsgiFit& KeyframeCoder::interpolated(size_t count) {
   return found->second;
 }
 
-const MsgiFit& KeyframeCoder::fit(double rmse) {
+const MsgiFit& KeyframeSearch::fit(double rmse) {
   if (reconstruction_ == Reconstruction::kLinear) {
     fit_ = {count_ ? fitter_.fit(*count_, method_, weights_)
                    : fewest_keyframes(fitter_, rmse_target(rmse), method_, weights_),
@@ -94,7 +94,7 @@ const MsgiFit& KeyframeCoder::fit(double rmse) {
   return interpolated(enough);
 }
 
-std::optional<CodedPart> KeyframeCoder::coded(const MsgiFit& fit, double rounding_rms) {
+std::optional<CodedSegment> KeyframeSearch::coded(const MsgiFit& fit, double rounding_rms) {
   input_.begin(SearchStep::kTrial);
   const auto count = static_cast<double>(fit.fit.keyframes.size());
   const MemoryShare memory =
@@ -110,17 +110,17 @@ std::optional<CodedPart> KeyframeCoder::coded(const MsgiFit& fit, double roundin
                        input_.layout, poses_, fit.leaf_faces);
   if (!encoded)
     return std::nullopt;
-  CodedPart part;
-  part.encoded = std::move(*encoded);
-  part.opened = open_encoded(part.encoded, input_.layout);
-  part.error = measure(part.opened, input_.frames(), input_.copies);
-  part.what = std::to_string(fit.fit.keyframes.size()) + " key-frames, " +
-              kWeightNames[static_cast<int>(weights_)] + (fit.leaf_faces > 0 ? ", MSGI" : "");
-  return part;
+  CodedSegment segment;
+  segment.encoded = std::move(*encoded);
+  segment.opened = open_encoded(segment.encoded, input_.layout);
+  segment.error = measure(segment.opened, input_.frames(), input_.copies);
+  segment.what = std::to_string(fit.fit.keyframes.size()) + " key-frames, " +
+                 kWeightNames[static_cast<int>(weights_)] + (fit.leaf_faces > 0 ? ", MSGI" : "");
+  return segment;
 }
 
-std::optional<CodedPart> KeyframeCoder::at_rmse(double rmse) {
-  std::optional<CodedPart> best;
+std::optional<CodedSegment> KeyframeSearch::at_rmse(double rmse) {
+  std::optional<CodedSegment> best;
   size_t best_bytes = 0;
   // More key-frames leave more room for rounding: what is cheapest is measured.
   for (double share : {0.6, 0.85}) {
@@ -133,16 +133,16 @@ std::optional<CodedPart> KeyframeCoder::at_rmse(double rmse) {
         break;
       if (rounding == 0 || rounding > std::sqrt(left))
         rounding = std::sqrt(left);
-      std::optional<CodedPart> part = coded(exact, rounding);
-      if (!part)
+      std::optional<CodedSegment> segment = coded(exact, rounding);
+      if (!segment)
         return best;
-      if (static_cast<double>(part->encoded.bytes()) > most_bytes_)
+      if (static_cast<double>(segment->encoded.bytes()) > most_bytes_)
         return best;
-      double measured = input_.rmse(part->error.squared);
+      double measured = input_.rmse(segment->error.squared);
       if (measured <= rmse) {
-        const size_t bytes = part->encoded.bytes();
+        const size_t bytes = segment->encoded.bytes();
         if (!best || bytes < best_bytes) {
-          best = std::move(part);
+          best = std::move(segment);
           best_bytes = bytes;
         }
         break;
@@ -158,21 +158,21 @@ std::optional<CodedPart> KeyframeCoder::at_rmse(double rmse) {
   return best;
 }
 
-CodedPart KeyframeCoder::at_count() {
+CodedSegment KeyframeSearch::at_count() {
   const MsgiFit& exact = fit(0);
   double floor = input_.largest_coordinate * 1e-6;
   double rms = fitter_.rmse(exact.fit);
   double allowed = std::max(1.1 * rms, floor);
   double rounding = std::sqrt(std::max(0.8 * (allowed * allowed - rms * rms), 0.0));
-  std::optional<CodedPart> part = coded(exact, rounding);
-  for (int round = 0; part && round < kTargetRounds && input_.rmse(part->error.squared) > allowed;
-       ++round)
-    part = coded(exact, rounding *= 0.7);
-  if (!part)
+  std::optional<CodedSegment> segment = coded(exact, rounding);
+  for (int round = 0;
+       segment && round < kTargetRounds && input_.rmse(segment->error.squared) > allowed; ++round)
+    segment = coded(exact, rounding *= 0.7);
+  if (!segment)
     throw Error(ErrorKind::kUsage,
                 "the key-frames cannot be stored as finely as the other frames need them: ask for "
                 "fewer, or for other ones (--keyframe-selection)");
-  return std::move(*part);
+  return std::move(*segment);
 }
 
 }  // namespace anicodec

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_CODEC_SEARCH_CODED_PART_H_
-#define ANICODEC_CODEC_SEARCH_CODED_PART_H_
+#ifndef ANICODEC_CODEC_SEARCH_CODED_SEGMENT_H_
+#define ANICODEC_CODEC_SEARCH_CODED_SEGMENT_H_
 
 #include "codec/segment/encoded_segment.h"
 
@@ -10,7 +10,7 @@
 namespace anicodec {
 
 /// A coded segment and what its decoder shows.
-struct CodedPart {
+struct CodedSegment {
   EncodedSegment encoded;
   Segment opened;
   SegmentError error;
@@ -21,4 +21,4 @@ struct CodedPart {
 
 }  // namespace anicodec
 
-#endif  // ANICODEC_CODEC_SEARCH_CODED_PART_H_
+#endif  // ANICODEC_CODEC_SEARCH_CODED_SEGMENT_H_

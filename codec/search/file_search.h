@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_CODEC_SEARCH_CLIP_SEARCH_H_
-#define ANICODEC_CODEC_SEARCH_CLIP_SEARCH_H_
+#ifndef ANICODEC_CODEC_SEARCH_FILE_SEARCH_H_
+#define ANICODEC_CODEC_SEARCH_FILE_SEARCH_H_
 
 #include "codec/connectivity/attribute_encode.h"
 #include "codec/plan/encode_options.h"
+#include "codec/search/basis_search.h"
 #include "codec/search/encoder_input.h"
 #include "codec/search/moving_attributes.h"
-#include "codec/search/rate_control.h"
 #include "codec/search/solution.h"
 #include "format/records.h"
 
@@ -21,7 +21,7 @@ struct CodedClip {
   MovingAttributes attributes;
 
   /// In the order of the file.
-  std::vector<const EncodedSegment*> segments() const;
+  std::vector<const EncodedSegment*> encoded() const;
 };
 
 /// Adds room for the errors of attributes that move, which are yet to be measured.
@@ -29,10 +29,10 @@ void make_room(const std::vector<AttributeResult>& attributes, ClipsRecord* reco
 
 /// Searches positions and moving attributes for a bound of the whole file: where that is a size,
 /// positions get what the attributes leave.
-class ClipSearch {
+class FileSearch {
  public:
   /// All references must outlive this object.
-  ClipSearch(const EncoderInput& input, const std::vector<StoredAttribute>& stored,
+  FileSearch(const EncoderInput& input, const std::vector<StoredAttribute>& stored,
              const SearchOptions& options, const Bound& bound)
       : input_(input),
         stored_(stored),
@@ -53,9 +53,9 @@ class ClipSearch {
   const std::vector<StoredAttribute>& stored_;
   const SearchOptions& options_;
   Bound bound_;
-  RateControl control_;
+  BasisSearch control_;
 };
 
 }  // namespace anicodec
 
-#endif  // ANICODEC_CODEC_SEARCH_CLIP_SEARCH_H_
+#endif  // ANICODEC_CODEC_SEARCH_FILE_SEARCH_H_

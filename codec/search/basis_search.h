@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_CODEC_SEARCH_RATE_CONTROL_H_
-#define ANICODEC_CODEC_SEARCH_RATE_CONTROL_H_
+#ifndef ANICODEC_CODEC_SEARCH_BASIS_SEARCH_H_
+#define ANICODEC_CODEC_SEARCH_BASIS_SEARCH_H_
 
 #include "codec/plan/encode_options.h"
 #include "codec/search/encoder_input.h"
-#include "codec/search/keyframe_coder.h"
-#include "codec/search/linear_coder.h"
+#include "codec/search/keyframe_search.h"
+#include "codec/search/linear_search.h"
 #include "codec/search/solution.h"
 #include "codec/search/target_search.h"
 
@@ -19,10 +19,10 @@ namespace anicodec {
 
 /// Searches all ways of coding for the smallest file that keeps to the target: every trial is
 /// opened and measured as a decoder sees it.
-class RateControl {
+class BasisSearch {
  public:
   /// `input` and `options` must outlive this object.
-  RateControl(const EncoderInput& input, const SearchOptions& options, const Bound& bound)
+  BasisSearch(const EncoderInput& input, const SearchOptions& options, const Bound& bound)
       : input_(input), options_(options), bound_(bound), search_(input, options, bound) {}
 
   /// Throws Error(kUsage) when the target cannot be reached; the text says what can.
@@ -37,35 +37,35 @@ class RateControl {
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
-  using LinearCoders = std::vector<std::unique_ptr<LinearCoder>>;
+  using LinearSearches = std::vector<std::unique_ptr<LinearSearch>>;
 
   std::optional<Solution> of_all_clips();
   std::optional<Solution> clip_by_clip();
   std::optional<Solution> by_keyframes_alone();
   std::optional<Solution> by_linear_bases();
-  LinearCoders linear_coders(const LinearAnalysis& analysis);
-  void add_keyframe_coder(Reconstruction reconstruction);
+  LinearSearches linear_searches(const LinearAnalysis& analysis);
+  void add_keyframe_search(Reconstruction reconstruction);
   bool tries_keyframes(bool of_any_clip) const;
   bool allows_msgi() const;
   void try_msgi(Solution* best);
   void note(const std::string& reason);
-  void offer(SegmentCoder& coder, std::optional<Solution>* best);
-  std::optional<Solution> cut_in_time(const Solution& whole, const LinearCoder& coder);
+  void offer(SegmentSearch& search, std::optional<Solution>* best);
+  std::optional<Solution> cut_in_time(const Solution& whole, const LinearSearch& search);
   bool beats_keyframes(const Solution& solution) const;
   [[noreturn]] void fail() const;
-  [[noreturn]] void fail(KeyframeCoder& keyframes) const;
+  [[noreturn]] void fail(KeyframeSearch& keyframes) const;
 
   const EncoderInput& input_;
   const SearchOptions& options_;
   Bound bound_;
   TargetSearch search_;
   std::optional<LinearAnalysis> analysis_;
-  LinearCoders linear_coders_;  ///< of the analysis
-  std::vector<std::unique_ptr<KeyframeCoder>> keyframe_coders_;
-  std::unique_ptr<KeyframeCoder> msgi_coder_;
+  LinearSearches linear_searches_;  ///< of the analysis
+  std::vector<std::unique_ptr<KeyframeSearch>> keyframe_searches_;
+  std::unique_ptr<KeyframeSearch> msgi_search_;
   std::vector<std::string> notes_;
 };
 
 }  // namespace anicodec
 
-#endif  // ANICODEC_CODEC_SEARCH_RATE_CONTROL_H_
+#endif  // ANICODEC_CODEC_SEARCH_BASIS_SEARCH_H_

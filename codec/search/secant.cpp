@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/search/bound_search.h"
+#include "codec/search/secant.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,11 +16,11 @@ constexpr double kOther = 0.002;   // that are not the same trial again
 
 }  // namespace
 
-void BoundSearch::add(double setting, double outcome) {
+void Secant::add(double setting, double outcome) {
   trials_.push_back({std::log(setting), std::log(outcome)});
 }
 
-double BoundSearch::next(double aim, double bound) {
+double Secant::next(double aim, double bound) {
   const double log_aim = std::log(aim), log_bound = std::log(bound);
   std::ranges::stable_sort(trials_, {},
                            [&](const Trial& t) { return std::abs(t.outcome - log_aim); });

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_CODEC_SEARCH_KEYFRAME_CODER_H_
-#define ANICODEC_CODEC_SEARCH_KEYFRAME_CODER_H_
+#ifndef ANICODEC_CODEC_SEARCH_KEYFRAME_SEARCH_H_
+#define ANICODEC_CODEC_SEARCH_KEYFRAME_SEARCH_H_
 
 #include "codec/keyframes/msgi_weights.h"
 #include "codec/search/encoder_input.h"
-#include "codec/search/segment_coder.h"
+#include "codec/search/segment_search.h"
 #include "codec/segment/keyframe_poses.h"
 
 #include <cstddef>
@@ -15,18 +15,18 @@
 
 namespace anicodec {
 
-/// Codes a segment by key-frames (thesis chapter 5): finds how many, which, what kind of weights,
+/// Searches how key-frames code a segment (thesis chapter 5): finds how many, which, what kind of weights,
 /// and how finely to round them.
-class KeyframeCoder : public SegmentCoder {
+class KeyframeSearch : public SegmentSearch {
  public:
   /// `count`: the exact number of key-frames, or as many as the error needs. `poses`: what codes
   /// them. `reconstruction`: how
   /// frames are made from them; MSGI takes weights that sum to one and a rigid motion per frame,
   /// and tries key-frames spread evenly from the first frame to the last, too.
-  KeyframeCoder(const EncoderInput& input, KeyframeMethod method, std::optional<uint32_t> count,
-                KeyframePoses poses, Reconstruction reconstruction);
+  KeyframeSearch(const EncoderInput& input, KeyframeMethod method, std::optional<uint32_t> count,
+                 KeyframePoses poses, Reconstruction reconstruction);
 
-  std::optional<CodedPart> at_rmse(double rmse) override;
+  std::optional<CodedSegment> at_rmse(double rmse) override;
 
   /// Takes no more key-frames: what needs more is out of reach.
   void take_at_most(size_t keyframes) { most_keyframes_ = keyframes; }
@@ -36,14 +36,14 @@ class KeyframeCoder : public SegmentCoder {
 
   /// The given number of key-frames, rounded so that the error of exact ones grows by at most a
   /// tenth, or by a millionth of the largest coordinate where that is more.
-  CodedPart at_count();
+  CodedSegment at_count();
 
  private:
   /// So many key-frames, or as many as the error needs, with what is needed to code them.
   const MsgiFit& fit(double rmse);
   const MsgiFit& interpolated(size_t count);
   /// Nothing if the format cannot hold a number.
-  std::optional<CodedPart> coded(const MsgiFit& fit, double rounding_rms);
+  std::optional<CodedSegment> coded(const MsgiFit& fit, double rounding_rms);
 
   const EncoderInput& input_;
   KeyframeFitter fitter_;
@@ -60,4 +60,4 @@ class KeyframeCoder : public SegmentCoder {
 
 }  // namespace anicodec
 
-#endif  // ANICODEC_CODEC_SEARCH_KEYFRAME_CODER_H_
+#endif  // ANICODEC_CODEC_SEARCH_KEYFRAME_SEARCH_H_

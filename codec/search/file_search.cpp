@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/search/clip_search.h"
+#include "codec/search/file_search.h"
 
 #include "codec/file/clip_file.h"
 
@@ -16,10 +16,10 @@ constexpr double kRoom = 0.003;  // of the file, for attributes that change with
 
 }  // namespace
 
-std::vector<const EncodedSegment*> CodedClip::segments() const {
-  std::vector<const EncodedSegment*> list = positions.segments();
-  for (const CodedPart& part : attributes.parts)
-    list.push_back(&part.encoded);
+std::vector<const EncodedSegment*> CodedClip::encoded() const {
+  std::vector<const EncodedSegment*> list = positions.encoded();
+  for (const CodedSegment& segment : attributes.segments)
+    list.push_back(&segment.encoded);
   std::ranges::stable_sort(list, {}, [](const EncodedSegment* s) { return s->sizes.first_frame; });
   return list;
 }
@@ -31,7 +31,7 @@ void make_room(const std::vector<AttributeResult>& attributes, ClipsRecord* reco
   }
 }
 
-CodedClip ClipSearch::run(const ClipsRecord& record) {
+CodedClip FileSearch::run(const ClipsRecord& record) {
   const std::optional<double> allowed =
       allowed_bytes(bound_, input_.sequence.vertex_count, input_.sequence.frame_count);
   double positions_bytes = allowed.value_or(0);
@@ -40,13 +40,13 @@ CodedClip ClipSearch::run(const ClipsRecord& record) {
     coded.positions =
         round == 0 ? control_.solve() : control_.solve_within(std::max(positions_bytes, 1.0));
     coded.attributes = encode_moving_attributes(input_, stored_, options_,
-                                                coded.positions.parts[0].encoded.reference);
-    if (!allowed || coded.attributes.parts.empty())
+                                                coded.positions.segments[0].encoded.reference);
+    if (!allowed || coded.attributes.segments.empty())
       break;
     ClipsRecord with_errors = record;
     make_room(coded.attributes.results, &with_errors);
     const auto bytes =
-        static_cast<double>(clip_file_bytes(with_errors, input_.layout, coded.segments()));
+        static_cast<double>(clip_file_bytes(with_errors, input_.layout, coded.encoded()));
     if (bytes <= *allowed)
       break;
     // With another pose the attributes take some bytes more or less: room for them.

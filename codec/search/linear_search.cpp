@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/search/linear_coder.h"
+#include "codec/search/linear_search.h"
 
 #include "codec/parallel/parallel.h"
 #include "codec/parallel/thread_count.h"
@@ -69,8 +69,9 @@ size_t vertices_of(const LinearBasis& basis, size_t region) {
 
 }  // namespace
 
-LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis, BasisKind kind,
-                         Effort effort, uint32_t layers, bool smallest, uint32_t first_frame)
+LinearSearch::LinearSearch(const EncoderInput& input, const LinearAnalysis& analysis,
+                           BasisKind kind, Effort effort, uint32_t layers, bool smallest,
+                           uint32_t first_frame)
     : input_(input),
       analysis_(analysis),
       smallest_(smallest),
@@ -99,7 +100,7 @@ LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analys
   }
 }
 
-void LinearCoder::share_pose(std::shared_ptr<const EncodedPose> pose) {
+void LinearSearch::share_pose(std::shared_ptr<const EncodedPose> pose) {
   bases_->share_pose(std::move(pose));
   choice_.pose = ReferencePose::kGiven;
   choice_.base = Base::kAffine;
@@ -107,7 +108,7 @@ void LinearCoder::share_pose(std::shared_ptr<const EncodedPose> pose) {
 }
 
 /// The choice with a step and a number of components that should meet the error.
-LinearChoice LinearCoder::started(LinearChoice choice, double rmse) {
+LinearChoice LinearSearch::started(LinearChoice choice, double rmse) {
   rmse *= choice.aim;
   size_t first = kFirstComponents;
   if (choice.regions > 1) {
@@ -125,7 +126,7 @@ LinearChoice LinearCoder::started(LinearChoice choice, double rmse) {
 }
 
 /// The step and the components of a basis that should meet the error.
-void LinearCoder::set_step(const LinearBasis& b, double rmse, LinearSettings& settings) const {
+void LinearSearch::set_step(const LinearBasis& b, double rmse, LinearSettings& settings) const {
   const FrameView clip = analysis_.clip();
   const double budget = rmse * rmse * static_cast<double>(clip.vertex_count * clip.frame_count);
   // Bisection: the error of rounding and of what is left out grows with the step.
@@ -149,18 +150,18 @@ void LinearCoder::set_step(const LinearBasis& b, double rmse, LinearSettings& se
   }
 }
 
-void LinearCoder::begin(const LinearChoice& choice) const {
+void LinearSearch::begin(const LinearChoice& choice) const {
   const bool all_means = choice.settings.joint_lambda > 0 || choice.settings.refit_weights;
   input_.begin(all_means ? SearchStep::kThoroughTrial : SearchStep::kTrial);
 }
 
-LinearCoder::Measured LinearCoder::measured(const LinearChoice& choice, double rmse) {
+LinearSearch::Measured LinearSearch::measured(const LinearChoice& choice, double rmse) {
   begin(choice);
   return trial(choice, rmse);
 }
 
-std::vector<LinearCoder::Measured> LinearCoder::measured(const std::vector<LinearChoice>& choices,
-                                                         double rmse) {
+std::vector<LinearSearch::Measured> LinearSearch::measured(const std::vector<LinearChoice>& choices,
+                                                           double rmse) {
   std::vector<Measured> trials(choices.size());
   for (const LinearChoice& choice : choices)
     begin(choice);
@@ -168,7 +169,7 @@ std::vector<LinearCoder::Measured> LinearCoder::measured(const std::vector<Linea
   return trials;
 }
 
-LinearCoder::Measured LinearCoder::trial(const LinearChoice& choice, double rmse) {
+LinearSearch::Measured LinearSearch::trial(const LinearChoice& choice, double rmse) {
   Measured m;
   std::optional<EncodedSegment> encoded = encode_linear(
       analysis_.clip(), bases_->basis(choice), choice.settings, input_.layout,
@@ -177,32 +178,32 @@ LinearCoder::Measured LinearCoder::trial(const LinearChoice& choice, double rmse
     m.rmse = m.bytes = std::numeric_limits<double>::infinity();
     return m;
   }
-  m.part.encoded = std::move(*encoded);
-  m.part.opened = open_encoded(m.part.encoded, input_.layout);
-  m.part.error = measure(m.part.opened, analysis_.clip(), input_.copies);
-  m.part.what = std::to_string(m.part.encoded.sizes.components) +
-                (kind_ == BasisKind::kEigenshapes ? " eigenshapes" : " eigentrajectories");
+  m.segment.encoded = std::move(*encoded);
+  m.segment.opened = open_encoded(m.segment.encoded, input_.layout);
+  m.segment.error = measure(m.segment.opened, analysis_.clip(), input_.copies);
+  m.segment.what = std::to_string(m.segment.encoded.sizes.components) +
+                   (kind_ == BasisKind::kEigenshapes ? " eigenshapes" : " eigentrajectories");
   if (choice.regions > 1)
-    m.part.what += " in " + std::to_string(choice.regions) + " regions";
+    m.segment.what += " in " + std::to_string(choice.regions) + " regions";
   for (const char* step : choice.steps)
-    m.part.what += std::string(", ") + step;
+    m.segment.what += std::string(", ") + step;
   char text[32];  // what trials of the same settings differ in
   std::snprintf(text, sizeof text, ", step %.3g", choice.settings.step);
-  m.part.what += text;
-  m.rmse = input_.rmse(m.part.error.squared, analysis_.clip().frame_count);
+  m.segment.what += text;
+  m.rmse = input_.rmse(m.segment.error.squared, analysis_.clip().frame_count);
   if (input_.bounds_clips()) {
-    m.excesses = input_.excesses(m.part.error, first_frame_, rmse);
+    m.excesses = input_.excesses(m.segment.error, first_frame_, rmse);
     m.rmse = rmse * std::ranges::max(m.excesses);
   }
-  m.part.opening =
-      bytes_per_nanosecond(smallest_) *
-      opening_nanoseconds(choice.settings, m.part.encoded, input_.layout.topology.coded_vertices);
-  m.bytes = bytes(m.part) * std::pow(std::max(m.rmse, rmse * 1e-3) / rmse, kRateSlope);
+  m.segment.opening =
+      bytes_per_nanosecond(smallest_) * opening_nanoseconds(choice.settings, m.segment.encoded,
+                                                            input_.layout.topology.coded_vertices);
+  m.bytes = bytes(m.segment) * std::pow(std::max(m.rmse, rmse * 1e-3) / rmse, kRateSlope);
   return m;
 }
 
 /// Clips that are further below their bound than the worst can do with coarser weights.
-void LinearCoder::even_out(const Measured& trial, LinearChoice& choice) {
+void LinearSearch::even_out(const Measured& trial, LinearChoice& choice) {
   constexpr double kMost = 32, kPart = 0.8;  // in eighths of an octave; of the distance at a time
   const double worst = trial.excesses.empty() ? 0 : std::ranges::max(trial.excesses);
   if (trial.excesses.size() < 2 || !(worst > 0) || std::isinf(trial.rmse))
@@ -219,16 +220,16 @@ void LinearCoder::even_out(const Measured& trial, LinearChoice& choice) {
 
 /// A trial of a started choice tells how far its estimate was off, and what a bit saves of the
 /// squared error along the curve of rates.
-void LinearCoder::learn(const Measured& trial, double rmse, LinearChoice& choice) {
+void LinearSearch::learn(const Measured& trial, double rmse, LinearChoice& choice) {
   if (!(trial.rmse > 0) || std::isinf(trial.rmse))
     return;
   choice.aim = std::clamp(choice.aim * kPlain.aim * rmse / trial.rmse, 0.2, 5.0);
   const double step = choice.settings.step, bits = 8 * std::max(trial.bytes, 1.0);
-  choice.price = trial.part.error.squared / (step * step) / (kRateSlope / 2 * bits);
+  choice.price = trial.segment.error.squared / (step * step) / (kRateSlope / 2 * bits);
   even_out(trial, choice);
 }
 
-double LinearCoder::probe_once(double rmse) {
+double LinearSearch::probe_once(double rmse) {
   choice_ = started(choice_, rmse);
   const Measured trial = measured(choice_, rmse);
   probed_ = probed(trial, rmse);
@@ -236,7 +237,7 @@ double LinearCoder::probe_once(double rmse) {
   return probed_.bytes;
 }
 
-double LinearCoder::probe(double rmse) {
+double LinearSearch::probe(double rmse) {
   constexpr int kMostTrials = 3;
   if (probed_.rmse != rmse)
     probe_once(rmse);
@@ -247,20 +248,20 @@ double LinearCoder::probe(double rmse) {
   return probed_.bytes;
 }
 
-void LinearCoder::open_like(const LinearCoder& other) {
+void LinearSearch::open_like(const LinearSearch& other) {
   std::erase_if(opening_steps_, [&](const LinearStep& step) {
     return std::ranges::find(other.choice_.steps, step.name) == other.choice_.steps.end();
   });
 }
 
-bool LinearCoder::tries_regions() const {
+bool LinearSearch::tries_regions() const {
   return !bases_->shared_pose() && effort_ > Effort::kFast &&
          kind_ == BasisKind::kEigentrajectories && input_.allows(kRegionsMean);
 }
 
-LinearCoder::Probed LinearCoder::probed(const Measured& trial, double rmse) {
+LinearSearch::Probed LinearSearch::probed(const Measured& trial, double rmse) {
   Probed result{rmse, trial.bytes, std::abs(trial.rmse / rmse - 1) < kNear};
-  const EncodedSegment& encoded = trial.part.encoded;
+  const EncodedSegment& encoded = trial.segment.encoded;
   result.weights = static_cast<double>(encoded.weights.size());
   for (const Bytes& layer : encoded.layers)
     result.weights += static_cast<double>(layer.size());
@@ -271,7 +272,7 @@ LinearCoder::Probed LinearCoder::probed(const Measured& trial, double rmse) {
 
 /// Estimates the bytes of weights and coefficients of a started choice with regions from the bytes
 /// of the whole: coefficients of a region are fewer and dearer, for they have more of the motion.
-double LinearCoder::expected_bytes(const LinearChoice& choice) {
+double LinearSearch::expected_bytes(const LinearChoice& choice) {
   constexpr double kOfWeight = 0.9, kOfCoefficient = 1.5;  // measured on pcow, crane, jumping
   const LinearBasis& b = bases_->basis(choice);
   const auto whole = static_cast<double>(most_components(choice_.settings));
@@ -287,7 +288,7 @@ double LinearCoder::expected_bytes(const LinearChoice& choice) {
 }
 
 /// Cuts the surface where the clip takes many components, memory allows it, and that is smaller.
-void LinearCoder::try_regions(double rmse) {
+void LinearSearch::try_regions(double rmse) {
   if (tried_regions_ || most_components(choice_.settings) < kRichComponents)
     return;
   tried_regions_ = true;
@@ -343,7 +344,7 @@ void LinearCoder::try_regions(double rmse) {
   }
 }
 
-double LinearCoder::choose_settings(double rmse, Steps wanted) {
+double LinearSearch::choose_settings(double rmse, Steps wanted) {
   if (chosen_ || effort_ == Effort::kFirst)
     return least_;
   if (steps_done_ == 0) {
@@ -378,7 +379,7 @@ double LinearCoder::choose_settings(double rmse, Steps wanted) {
 
 /// Tries each step on top of the kept ones and keeps it if it helps. One step per thread at a
 /// time; after a success the later ones are tried again.
-bool LinearCoder::try_steps(std::span<const LinearStep> steps, double rmse) {
+bool LinearSearch::try_steps(std::span<const LinearStep> steps, double rmse) {
   const auto threads = thread_count();
   const size_t most_failures = effort_ == Effort::kBest ? steps.size() + failures_ : kMostFailures;
   bool changes = false;
@@ -417,7 +418,7 @@ bool LinearCoder::try_steps(std::span<const LinearStep> steps, double rmse) {
   return changes;
 }
 
-double LinearCoder::prepare(double rmse) {
+double LinearSearch::prepare(double rmse) {
   choose_settings(rmse, Steps::kOpening);
   approaches_.clear();
   approaches_.emplace_back(choice_);
@@ -436,20 +437,20 @@ double LinearCoder::prepare(double rmse) {
   return approaches_[0].expected;
 }
 
-std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
+std::optional<CodedSegment> LinearSearch::at_rmse(double rmse) {
   if (!(rmse > 0))
     return std::nullopt;
   if (approaches_.empty() || asked_ != rmse)
     prepare(rmse);
-  std::optional<CodedPart> best;
+  std::optional<CodedSegment> best;
   double worth = std::exchange(most_bytes_, kNoLimit);
   for (Approach& approach : approaches_) {
     if (approach.expected > worth)
       continue;
-    std::optional<CodedPart> part = reached(approach);
-    if (!part || (best && bytes(*part) >= bytes(*best)))
+    std::optional<CodedSegment> segment = reached(approach);
+    if (!segment || (best && bytes(*segment) >= bytes(*best)))
       continue;
-    best = std::move(part);
+    best = std::move(segment);
     choice_ = std::move(approach.choice);
     worth =
         std::min(worth, (effort_ == Effort::kBest ? kWorthOfBest : kWorthSearching) * bytes(*best));
@@ -462,22 +463,22 @@ std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
   return best;
 }
 
-std::optional<CodedPart> LinearCoder::near_rmse(double rmse) {
+std::optional<CodedSegment> LinearSearch::near_rmse(double rmse) {
   if (!(rmse > 0))
     return std::nullopt;
   Measured trial = measured(started(choice_, rmse), rmse);
   if (std::isinf(trial.rmse))
     return std::nullopt;
-  return std::move(trial.part);
+  return std::move(trial.segment);
 }
 
 /// Does without the means that take longer where that is smaller.
-void LinearCoder::turn_down(double rmse, CodedPart& best) {
+void LinearSearch::turn_down(double rmse, CodedSegment& best) {
   thorough_ = false;
   Approach approach(choice_);
   approach.choice.step_factor = 0;
   asked_ = rmse;
-  std::optional<CodedPart> plain = reached(approach);
+  std::optional<CodedSegment> plain = reached(approach);
   thorough_ = !plain || bytes(*plain) >= bytes(best);
   if (thorough_)
     return;
@@ -486,7 +487,7 @@ void LinearCoder::turn_down(double rmse, CodedPart& best) {
 }
 
 /// One more trial on the way to the error asked for.
-void LinearCoder::advance(Approach& a) {
+void LinearSearch::advance(Approach& a) {
   const Nearness& near = thorough_ ? kThorough : effort_ > Effort::kFirst ? kPlain : kFirst;
   LinearChoice& tried = a.tried;
   if (a.round == 0) {
@@ -496,7 +497,7 @@ void LinearCoder::advance(Approach& a) {
                            : thorough_              ? kJointStep
                                                     : 1;
   } else {
-    tried.settings.step = a.search.next(near.aim, 1);
+    tried.settings.step = a.secant.next(near.aim, 1);
   }
   if (thorough_) {
     tried.settings.joint_lambda = input_.allows(kJointRoundingMean) ? tried.price : 0;
@@ -516,8 +517,8 @@ void LinearCoder::advance(Approach& a) {
   const double ratio = std::max(trial.rmse / asked_, 1e-9), step = tried.settings.step;
   if (ratio <= 1) {
     a.closest = std::max(a.closest, ratio);
-    if (!a.best || bytes(trial.part) < bytes(*a.best)) {
-      a.best = std::move(trial.part);
+    if (!a.best || bytes(trial.segment) < bytes(*a.best)) {
+      a.best = std::move(trial.segment);
       a.choice.step_factor = step / a.estimated;
     }
   }
@@ -527,26 +528,26 @@ void LinearCoder::advance(Approach& a) {
     // The components left out alone take most of the error: more of them.
     for (size_t& k : tried.settings.components)
       k += k / 16 + 1;
-    a.search = BoundSearch({a.search.exponent(), kLeastExponent, kMostExponent});
+    a.secant = Secant({a.secant.exponent(), kLeastExponent, kMostExponent});
   }
-  a.search.add(step, ratio);
+  a.secant.add(step, ratio);
   ++a.round;
 }
 
 /// Meets the error. The choice keeps what helps to meet the next one sooner.
-std::optional<CodedPart> LinearCoder::reached(Approach& approach) {
+std::optional<CodedSegment> LinearSearch::reached(Approach& approach) {
   while (!approach.ended)
     advance(approach);
-  approach.choice.exponent = approach.search.exponent();
+  approach.choice.exponent = approach.secant.exponent();
   if (approach.best)
     approach.best->asked = asked_;
   return std::move(approach.best);
 }
 
-/// The bytes that the part takes in the file, and the price of its opening.
-double LinearCoder::bytes(const CodedPart& part) const {
-  const size_t pose = bases_->shared_pose() ? 0 : part.encoded.reference->stream.size();
-  return static_cast<double>(part.encoded.bytes() + pose) + part.opening;
+/// The bytes that the segment takes in the file, and the price of its opening.
+double LinearSearch::bytes(const CodedSegment& segment) const {
+  const size_t pose = bases_->shared_pose() ? 0 : segment.encoded.reference->stream.size();
+  return static_cast<double>(segment.encoded.bytes() + pose) + segment.opening;
 }
 
 }  // namespace anicodec
