@@ -13,8 +13,10 @@
 namespace anicodec {
 namespace {
 
-// Trajectories of the space that components of regions are found in, for each component of the whole.
+// Trajectories of the space that components of regions are found in, for each component of the whole. Chicken at
+// --kg 0.1: 61.0 kB with 2, 53.8 with 3, 54.0 with 4, 53.9 with 6; dance, horse, flag and face: within 0.5 %.
 constexpr double kSpaceOfRegions = 3;
+// Files of these at --kg 0.1 with 4, 16, 32 and 1000: from 1.1 % below to 2.3 % above those with 8.
 constexpr double kPoseStepsOfOctave = 8;
 
 /// The step of the pose on a grid, so that trials of nearly the same steps share a coded pose.
