@@ -196,6 +196,27 @@ def faults_of(decoder, folder, entry, without, any_code, scratch):
         yield f"was refused with {status}, not {' or '.join(str(code) for code in codes if code)}"
 
 
+def conforms(decoder, folder, without, any_code=False, stop=False):
+    """Whether a decoder does right by all files of a folder; prints its faults, with `stop` the first one."""
+    entries = [Entry(line) for line in (folder / "MANIFEST").read_text(encoding="utf-8").splitlines()]
+    right, skipped, counts = True, 0, dict.fromkeys(("valid", "stream", "invalid", "invalid_stream", "limit"), 0)
+    with tempfile.TemporaryDirectory() as scratch:
+        for entry in entries:
+            if entry.skipped(without):
+                skipped += 1
+                continue
+            counts[entry.kind] += 1
+            for fault in faults_of(decoder, folder, entry, without, any_code, scratch):
+                right = False
+                print(f"{entry.name}: {fault}", flush=True)
+                if stop:
+                    return False
+    if right:
+        told = ", ".join(f"{count} {kind.replace('_', ' ')} files" for kind, count in counts.items())
+        print(f"{told}{f', {skipped} skipped' if skipped else ''}: conforms")
+    return right
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--any-code", action="store_true")
@@ -207,24 +228,8 @@ def main():
     arguments = parser.parse_args()
     if not any("{file}" in word for word in arguments.command):
         parser.error("COMMAND names no {file}")
-    decoder, without = Decoder(arguments.command, arguments.memory), set(arguments.without)
-    entries = [Entry(line) for line in (arguments.folder / "MANIFEST").read_text(encoding="utf-8").splitlines()]
-    wrong, skipped, counts = False, 0, dict.fromkeys(("valid", "stream", "invalid", "invalid_stream", "limit"), 0)
-    with tempfile.TemporaryDirectory() as scratch:
-        for entry in entries:
-            if entry.skipped(without):
-                skipped += 1
-                continue
-            counts[entry.kind] += 1
-            for fault in faults_of(decoder, arguments.folder, entry, without, arguments.any_code, scratch):
-                wrong = True
-                print(f"{entry.name}: {fault}")
-                if arguments.stop:
-                    sys.exit(1)
-    if not wrong:
-        told = ", ".join(f"{count} {kind.replace('_', ' ')} files" for kind, count in counts.items())
-        print(f"{told}{f', {skipped} skipped' if skipped else ''}: conforms")
-    sys.exit(1 if wrong else 0)
+    decoder = Decoder(arguments.command, arguments.memory)
+    sys.exit(0 if conforms(decoder, arguments.folder, set(arguments.without), arguments.any_code, arguments.stop) else 1)
 
 
 if __name__ == "__main__":
