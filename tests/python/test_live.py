@@ -95,6 +95,25 @@ def test_two_threads_and_room():
     assert sum(p.frame_count for p in taken) == 40
 
 
+TAKES = """
+live = anicodec.encode_live([(0, 1, 2)], vertex_count=3, fps=30)
+work = lambda: [None for _ in live]
+"""
+ENCODES = """
+import numpy as np
+positions = np.random.default_rng(1).normal(size=(200, 3000, 3))
+work = lambda: anicodec.encode(positions, [(0, 1, 2)], max_error="0.01%", progress=lambda *_: None)
+"""
+
+
+@pytest.mark.parametrize("work", (TAKES, ENCODES))
+def test_a_program_ends_beside_a_daemon_thread(work):
+    program = "import threading, time, anicodec\n" + work + "threading.Thread(target=work, daemon=True).start(); time.sleep(0.3)\n"
+    for _ in range(3):
+        ended = subprocess.run([sys.executable, "-c", program], capture_output=True, check=False, timeout=100)
+        assert (ended.returncode, ended.stderr) == (0, b"")
+
+
 def test_what_cannot_be():
     live = begin(most_waiting=10)
     with pytest.raises(anicodec.InputError, match="60 x 3"):

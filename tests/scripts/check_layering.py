@@ -33,7 +33,7 @@ ALLOWED = {
     # Importers and exporters need no encoder: of codec/, only what a mesh in motion is,
     # and the threads.
     "tools/io": ['"tools/io/', '"codec/sequence/', '"codec/parallel/', '"sdk/', '"format/', "<fmt/", "<nlohmann/", *POSIX],
-    "bindings/python": ['"bindings/python/', '"codec/', '"tools/commands/command_line.h"', "<anicodec/", "<nanobind/"],
+    "bindings/python": ['"bindings/python/', '"codec/', '"tools/commands/command_line.h"', "<anicodec/", "<nanobind/", "<dlfcn.h>"],
     "bindings/usd": ['"bindings/usd/', "<anicodec/", "<pxr/", "<dlfcn.h>", "<link.h>", "<unistd.h>"],
     "bindings/web": ['"bindings/web/', "<anicodec/", "<stddef.h>", "<stdlib.h>", "<string.h>"],
     "bindings/engines/ogre": ['"bindings/engines/ogre/', "<anicodec/", "<Ogre"],

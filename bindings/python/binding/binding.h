@@ -5,6 +5,7 @@
 #ifndef ANICODEC_SDK_PYTHON_BINDING_BINDING_H_
 #define ANICODEC_SDK_PYTHON_BINDING_BINDING_H_
 
+#include "bindings/python/binding/interpreter_lock.h"
 #include "codec/sequence/mesh_sequence.h"
 
 #include <anicodec/anicodec.h>

@@ -46,7 +46,7 @@ class NormalPlan {
     anic_output out = ANIC_INIT(anic_output);
     out.data = normals.data();
     out.size = normals.nbytes();
-    const nb::gil_scoped_release release;
+    const WithoutInterpreter unlocked;
     check_status(anic_write_normals(plan_.get(), positions.data(), 0, 0,
                                     static_cast<uint32_t>(count()), &out));
   }
@@ -77,7 +77,7 @@ class Asset {
     const size_t size = file.size();
     anic_status status;
     {
-      const nb::gil_scoped_release release;
+      const WithoutInterpreter unlocked;
       status = anic_open_asset(bytes, size, &options, &asset, &failure);
     }
     if (status != ANIC_OK)
@@ -176,7 +176,7 @@ class Asset {
       return;
     for (uint32_t& number : numbers)
       number = frame_of(number);
-    const nb::gil_scoped_release release;
+    const WithoutInterpreter unlocked;
     const size_t bytes = out.nbytes() / count;
     auto* to = reinterpret_cast<unsigned char*>(out.data());
     const auto vertices = static_cast<uint32_t>(bytes / (3 * sizeof(float)));
@@ -204,7 +204,7 @@ class Asset {
     output.data = out.data();
     output.size = out.nbytes();
     const auto vertices = static_cast<uint32_t>(out.nbytes() / (3 * sizeof(float)));
-    const nb::gil_scoped_release release;
+    const WithoutInterpreter unlocked;
     const std::lock_guard<std::mutex> lock(mutex_);
     seek(clip, seconds, sampling, wrap);
     blend(other, other_seconds, sampling, other_wrap, weight);
@@ -219,7 +219,7 @@ class Asset {
     anic_value_output output = ANIC_INIT(anic_value_output);
     output.data = out.data();
     output.size = out.nbytes();
-    const nb::gil_scoped_release release;
+    const WithoutInterpreter unlocked;
     const std::lock_guard<std::mutex> lock(mutex_);
     seek(clip, seconds, sampling, wrap);
     blend(other, other_seconds, sampling, other_wrap, weight);
@@ -236,7 +236,7 @@ class Asset {
     std::copy_n(vertices.data(), 3, point.vertices);
     std::copy_n(weights.data(), 3, point.weights);
     anic_surface_frame frame;
-    const nb::gil_scoped_release release;
+    const WithoutInterpreter unlocked;
     const std::lock_guard<std::mutex> lock(mutex_);
     seek(clip, seconds, sampling, wrap);
     blend(other, other_seconds, sampling, other_wrap, weight);
@@ -262,7 +262,7 @@ class Asset {
     const auto count = static_cast<uint32_t>(triangles.size() / 3);
     anic_hit hit;
     {
-      const nb::gil_scoped_release release;
+      const WithoutInterpreter unlocked;
       std::vector<float> work(size_t{3} * sizes.vertex_count);
       const std::lock_guard<std::mutex> lock(mutex_);
       seek(clip, seconds, sampling, wrap);
@@ -339,7 +339,7 @@ class Asset {
   }
 
   void verify() const {
-    const nb::gil_scoped_release release;
+    const WithoutInterpreter unlocked;
     check_status(anic_verify_asset(asset_.get()));
   }
 

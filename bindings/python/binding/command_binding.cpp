@@ -14,7 +14,7 @@ int run_command(const std::vector<nb::bytes>& arguments) {
   for (const nb::bytes& argument : arguments)
     texts.push_back(argument.c_str());
   texts.push_back(nullptr);
-  const nb::gil_scoped_release release;
+  const WithoutInterpreter unlocked;
   return tools::run_command_line(static_cast<int>(arguments.size()), texts.data(), true);
 }
 

@@ -29,7 +29,7 @@ struct Callback {
 
   template <class Work>
   int guarded(const Work& work) const {
-    const nb::gil_scoped_acquire gil;
+    const WithInterpreter locked;
     try {
       if (PyErr_CheckSignals() != 0)
         throw nb::python_error();
@@ -255,7 +255,7 @@ nb::tuple Encoder::encode(const nb::dict& choices, const nb::object& progress) {
   anic_encoding result = ANIC_INIT(anic_encoding);
   anic_status status;
   {
-    const nb::gil_scoped_release release;
+    const WithoutInterpreter unlocked;
     status = anic_encode(encoder_.get(), &options, &result);
   }
   if (thrown_) {

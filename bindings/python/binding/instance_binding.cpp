@@ -53,7 +53,7 @@ void RenderPlan::write_normals(const Array<float>& positions, Writable<float> ou
   anic_output output = ANIC_INIT(anic_output);
   output.data = out.data();
   output.size = out.nbytes();
-  const nb::gil_scoped_release release;
+  const WithoutInterpreter unlocked;
   check_status(anic_write_render_normals(get(), positions.data(), 0, 0, count, &output));
 }
 
@@ -88,7 +88,7 @@ bool Instance::write_positions(const RenderPlan& plan, Writable<float> out) cons
   output.data = out.data();
   output.size = out.nbytes();
   const uint32_t count = info_of(plan.get()).vertex_count;
-  const nb::gil_scoped_release release;
+  const WithoutInterpreter unlocked;
   return is_present(anic_write_render_positions(plan.get(), context_.get(), ANIC_WHEN_CURRENT, 0,
                                                 count, &output));
 }
@@ -100,7 +100,7 @@ bool Instance::write_attribute(const RenderPlan& plan, uint32_t attribute, uint3
   output.size = out.nbytes();
   output.components = components;
   const uint32_t count = info_of(plan.get()).vertex_count;
-  const nb::gil_scoped_release release;
+  const WithoutInterpreter unlocked;
   return is_present(anic_write_render_attribute(plan.get(), context_.get(), attribute,
                                                 ANIC_WHEN_CURRENT, 0, count, &output));
 }

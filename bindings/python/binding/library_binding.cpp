@@ -29,7 +29,7 @@ nb::dict compare_clips(const Array<float>& a, const Array<float>& b, const Array
                        const Array<uint32_t>& corners, bool sted) {
   Comparison c;
   {
-    const nb::gil_scoped_release release;
+    const WithoutInterpreter unlocked;
     const MeshSequence first = sequence_of(a, offsets, corners);
     const MeshSequence second = sequence_of(b, offsets, corners);
     CompareOptions options;
@@ -56,7 +56,7 @@ nb::dict hausdorff_of(const Array<float>& a, const Array<uint32_t>& a_offsets,
                       const Array<uint32_t>& b_offsets, const Array<uint32_t>& b_corners) {
   HausdorffDistance h;
   {
-    const nb::gil_scoped_release release;
+    const WithoutInterpreter unlocked;
     const MeshSequence first = sequence_of(a, a_offsets, a_corners);
     const MeshSequence second = sequence_of(b, b_offsets, b_corners);
     h = hausdorff(first.polygons, first.frame(0), second.polygons, second.frame(0));
@@ -73,7 +73,7 @@ Numpy32 massaged(const Array<float>& positions, const Array<uint32_t>& offsets,
                  double tolerance, bool remove_noise) {
   FrameArray moved;
   {
-    const nb::gil_scoped_release release;
+    const WithoutInterpreter unlocked;
     MassageOptions options;
     options.reference = reference;
     options.strength = strength;
@@ -103,7 +103,7 @@ class Morpher {
     options.leaf_faces = leaf_faces;
     options.sweeps = sweeps;
     anic_morpher* morpher = nullptr;
-    const nb::gil_scoped_release release;
+    const WithoutInterpreter unlocked;
     check_status(anic_create_morpher(triangles.data(), static_cast<uint32_t>(triangles.size() / 3),
                                      static_cast<uint32_t>(vertices_), pointers.data(),
                                      static_cast<uint32_t>(pointers.size()), &options, nullptr,
@@ -115,7 +115,7 @@ class Morpher {
   Numpy32 at(const std::vector<double>& weights) const {
     auto result = new_array<float>({vertices_, 3});
     {
-      const nb::gil_scoped_release release;
+      const WithoutInterpreter unlocked;
       if (weights.size() != info_.mesh_count)
         raise(ANIC_E_ARGUMENT, "there must be a weight for each mesh");
       std::vector<std::max_align_t> scratch(info_.scratch_bytes / sizeof(std::max_align_t) + 1);

@@ -12,7 +12,7 @@ template <class Call>
 bool called(const Call& call, anic_status expected) {
   anic_status status;
   {
-    const nb::gil_scoped_release release;
+    const WithoutInterpreter unlocked;
     status = call();
   }
   if (status != ANIC_OK && status != expected)

@@ -59,7 +59,7 @@ void translate(const std::exception_ptr& thrown, void*) {
 }  // namespace
 
 void raise(anic_status status, const std::string& text) {
-  const nb::gil_scoped_acquire gil;
+  const WithInterpreter locked;
   const nb::object type = exception(exception_name(status));
   PyErr_SetString(type.ptr(), text.empty() ? anic_get_status_text(status) : text.c_str());
   throw nb::python_error();
@@ -88,6 +88,7 @@ NB_MODULE(_anicodec, module) {
   // Programs such as Panda3D hold nodes until the process ends: nothing that a user could mend.
   nb::set_leak_warnings(false);
   nb::register_exception_translator(translate);
+  watch_end_of_interpreter();
   bind_instance(module);
   bind_clip(module);
   bind_encoder(module);
