@@ -48,8 +48,12 @@ static const char FRAGMENT[] =
     "  result = vec4(light * mix(colour, vec3(0.6), 0.3 * level), 1.0);\n"
     "}\n";
 
+GLuint make_lit_program(int embedded, const char* vertex) {
+  return make_program(embedded, vertex, FRAGMENT, "shown");
+}
+
 GLuint make_clip_program(int embedded) {
-  return make_program(embedded, VERTEX, FRAGMENT, "shown");
+  return make_lit_program(embedded, VERTEX);
 }
 
 /* Writes one texture of all segments of a mesh, below one another. Returns its bytes. */

@@ -29,6 +29,9 @@ typedef struct {
 
 /* The shaders of all clips; captures "shown", positions before the instance's map. */
 GLuint make_clip_program(int embedded);
+/* The same light on a vertex shader of yours, which gives vec3 "shown" and "place", flat float
+ * "level". */
+GLuint make_lit_program(int embedded, const char* vertex);
 /* For at most so many instances. */
 void load_model(Model* model, anic_asset* asset, uint32_t mesh, uint32_t instances);
 /* Adds the instance that a context shows, with a map to the world (3 x 4) and a level of detail

@@ -6,6 +6,7 @@
  * out by the boxes of their frames. card_clip.c draws them.
  */
 #include "card_clip.h"
+#include "gl_window.h"
 
 #include <math.h>
 #include <stdio.h>

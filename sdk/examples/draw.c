@@ -5,6 +5,7 @@
  * hundred bytes of state, and a draw call.
  */
 #include "card_clip.h"
+#include "gl_window.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -9,7 +9,7 @@
 
 struct gl_functions gl;
 
-static const char* sample = "";
+const char* sample = "";
 
 void fail(const char* what, const char* why) {
   fprintf(stderr, "%s: %s: %s\n", sample, what, why);
@@ -42,45 +42,25 @@ anic_asset* open_file(const char* path, double* seconds) {
   anic_options options = ANIC_INIT(anic_options);
   options.flags = ANIC_OPEN_BOUNDS;
   anic_asset* asset = NULL;
-  const Uint64 begin = SDL_GetPerformanceCounter();
+  clock_t begin = clock();
   check(anic_open_asset(bytes, size, &options, &asset, NULL), path);
-  *seconds += (double)(SDL_GetPerformanceCounter() - begin) / (double)SDL_GetPerformanceFrequency();
+  *seconds += processor_milliseconds(&begin) / 1000;
   free(bytes);
   return asset;
 }
 
-SDL_Window* open_window(const char* name, int embedded, int width, int height) {
-  sample = name;
-  SDL_Window* window = NULL;
-  if (SDL_Init(SDL_INIT_VIDEO) == 0) {
-    SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
-    SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, embedded ? 0 : 3);
-    SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK,
-                        embedded ? SDL_GL_CONTEXT_PROFILE_ES : SDL_GL_CONTEXT_PROFILE_CORE);
-    SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 24);
-    window = SDL_CreateWindow(name, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, width, height,
-                              SDL_WINDOW_OPENGL);
-  }
-  if (window != NULL && SDL_GL_CreateContext(window) == NULL) {
-    SDL_DestroyWindow(window);
-    window = NULL;
-  }
-  if (window == NULL) {
-    fprintf(stderr, "%s: no OpenGL %s: %s\n", name, embedded ? "ES 3" : "3.3", SDL_GetError());
-    return NULL;
-  }
-#define LOAD(type, name)                                 \
-  *(void**)&gl.name = SDL_GL_GetProcAddress("gl" #name); \
-  if (gl.name == NULL)                                   \
+void start_gl(void* (*find)(const char* name), int width, int height) {
+#define FIND(type, name)                \
+  *(void**)&gl.name = find("gl" #name); \
+  if (gl.name == NULL)                  \
     fail("OpenGL has no function", "gl" #name);
-  GL_FUNCTIONS(LOAD)
+  GL_FUNCTIONS(FIND)
   GLuint vertex_array = 0;
   gl.GenVertexArrays(1, &vertex_array);
   gl.BindVertexArray(vertex_array);
   gl.Viewport(0, 0, width, height);
   gl.Enable(GL_DEPTH_TEST);
   gl.ClearColor(0.85f, 0.9f, 0.95f, 1);
-  return window;
 }
 
 static GLuint compile(GLenum kind, int embedded, const char* text) {
@@ -126,7 +106,6 @@ GLuint make_texture(GLint format, GLsizei width, GLsizei height, GLenum layout, 
   return texture;
 }
 
-/* Column-major: a camera at `eye` that looks at `at`. */
 void look(const float* eye, const float* at, float aspect, float* out) {
   float f[3], s[3], u[3], length = 0;
   for (int c = 0; c < 3; ++c)
@@ -176,17 +155,9 @@ void save_picture(const char* path, int width, int height) {
   free(pixels);
 }
 
-/* Time that this program has had on the processor, whatever else runs. */
 double processor_milliseconds(clock_t* since) {
   const clock_t now = clock();
   const double passed = 1000.0 * (double)(now - *since) / CLOCKS_PER_SEC;
-  *since = now;
-  return passed;
-}
-
-double milliseconds(Uint64* since) {
-  const Uint64 now = SDL_GetPerformanceCounter();
-  const double passed = 1000 * (double)(now - *since) / (double)SDL_GetPerformanceFrequency();
   *since = now;
   return passed;
 }

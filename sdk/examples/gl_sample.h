@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  * SPDX-FileCopyrightText: The anicodec authors
  *
- * Shared by samples that draw: a window with OpenGL 3.3 or ES 3 by SDL2, its functions, programs,
- * textures, a camera, pictures, clocks.
+ * Shared by samples that draw: functions of OpenGL 3.3 or ES 3, programs, textures, a camera,
+ * pictures, files, a clock.
  */
 #ifndef ANICODEC_SDK_EXAMPLES_GL_SAMPLE_H_
 #define ANICODEC_SDK_EXAMPLES_GL_SAMPLE_H_
@@ -10,7 +10,6 @@
 #include <anicodec/anicodec.h>
 
 #include <GL/glcorearb.h>
-#include <SDL2/SDL.h>
 #include <stddef.h>
 #include <time.h>
 
@@ -66,11 +65,11 @@ struct gl_functions {
   GL_FUNCTIONS(GL_MEMBER)
 };
 
-/* Set by open_window(). */
+/* Set by start_gl(). */
 extern struct gl_functions gl;
 
-enum { NO_DISPLAY = 3 }; /* exit status of a sample without OpenGL */
-
+/* That fail() names. */
+extern const char* sample;
 /* Ends the program. */
 void fail(const char* what, const char* why);
 void check(anic_status status, const char* what);
@@ -79,8 +78,8 @@ void* room(size_t size);
 /* The file must be there. Bounds of its frames are kept. Adds the time to *seconds. */
 anic_asset* open_file(const char* path, double* seconds);
 
-/* NULL, and a line is printed, without OpenGL 3.3 (or ES 3, if embedded). */
-SDL_Window* open_window(const char* name, int embedded, int width, int height);
+/* Finds the functions of the current context, and prepares it for pictures of this size. */
+void start_gl(void* (*find)(const char* name), int width, int height);
 /* `captured`: an output of the vertex shader for transform feedback. */
 GLuint make_program(int embedded, const char* vertex, const char* fragment, const char* captured);
 /* A texture without filters. */
@@ -91,9 +90,8 @@ void look(const float* eye, const float* at, float aspect, float* out);
 /* PPM, of what was drawn last. */
 void save_picture(const char* path, int width, int height);
 
-/* Time that passed, which is then taken from *since. */
-double milliseconds(Uint64* since);
-/* Time that this program has had on the processor, whatever else runs. */
+/* Time that this program has had on the processor, whatever else runs, which is then taken from
+ * *since. */
 double processor_milliseconds(clock_t* since);
 
 #endif
