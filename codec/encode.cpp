@@ -217,6 +217,7 @@ EncodeResult encode_meshes(Scene scene, const EncodeOptions& options, const Prog
   const SceneExtent extent = extent_of(scene);
   const ClipGoal goal = shared_goal(options.target, options.cap, extent);
   EncodeOptions of_mesh = options_of_meshes(scene, options);
+  const bool closed = is_closed(scene);
   SceneResult all(scene, extent);
   std::vector<EncodedMesh> encoded;
   std::vector<MeshRun> placed;
@@ -254,6 +255,7 @@ EncodeResult encode_meshes(Scene scene, const EncodeOptions& options, const Prog
   clip.max_displacement_error = result.max_displacement_error;
   clip.rmse = result.rmse;
   clip.kg = result.kg;
+  clip.closed = closed;
   clip.attribute_errors = all.attribute_errors();
   result.file = scene_file(record, scene.clip.frame_count, placed);
   check_hashes(result.file);

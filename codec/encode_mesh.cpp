@@ -27,12 +27,6 @@
 namespace anicodec {
 namespace {
 
-/// Whether a clip ends where it began.
-bool is_closed(const MeshSequence& sequence, const FrameRun& clip) {
-  return clip.count > 1 && std::ranges::equal(sequence.frame(clip.first),
-                                              sequence.frame(clip.first + clip.count - 1));
-}
-
 /// The timing of a run of frames; their positions stay.
 void cut_timing(const FrameRun& run, MeshSequence& sequence) {
   if (sequence.times.empty()) {

@@ -124,4 +124,9 @@ std::vector<double> clip_diagonals(const MeshSequence& sequence) {
   return diagonals;
 }
 
+bool is_closed(const MeshSequence& sequence, const FrameRun& frames) {
+  return frames.count > 1 && std::ranges::equal(sequence.frame(frames.first),
+                                                sequence.frame(frames.first + frames.count - 1));
+}
+
 }  // namespace anicodec

@@ -179,6 +179,9 @@ double diagonal(const MeshSequence& sequence);
 /// The same of each clip.
 std::vector<double> clip_diagonals(const MeshSequence& sequence);
 
+/// Whether the last of some frames has the positions of the first.
+bool is_closed(const MeshSequence& sequence, const FrameRun& frames);
+
 }  // namespace anicodec
 
 #endif  // ANICODEC_CODEC_SEQUENCE_MESH_SEQUENCE_H_

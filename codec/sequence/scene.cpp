@@ -164,6 +164,16 @@ void set_timing(const MeshSequence& clip, MeshSequence* mesh) {
   mesh->clips = clip.clips;
 }
 
+bool is_closed(const Scene& scene) {
+  const uint32_t frames = scene.clip.frame_count;
+  return frames > 1 && std::ranges::all_of(scene.meshes, [&](const SceneMesh& mesh) {
+           const FrameRun &first = mesh.present_in.front(), &last = mesh.present_in.back();
+           const bool begins = first.first == 0, ends = last.first + last.count == frames;
+           return begins == ends &&
+                  (!begins || is_closed(mesh.sequence, {0, mesh.sequence.frame_count}));
+         });
+}
+
 Scene scene_of(MeshSequence sequence) {
   Scene scene;
   set_timing(sequence, &scene.clip);

@@ -25,6 +25,9 @@ struct Scene {
 /// Gives timing, axes and units of a clip to a mesh that is there in all of it.
 void set_timing(const MeshSequence& clip, MeshSequence* mesh);
 
+/// Whether the last frame shows the meshes of the first, at the same positions.
+bool is_closed(const Scene& scene);
+
 /// The scene of a mesh that is always there.
 Scene scene_of(MeshSequence sequence);
 

@@ -7,6 +7,7 @@
 #include "sdk/clip/clip.h"
 #include "tests/two_boxes.h"
 
+#include <algorithm>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -40,6 +41,25 @@ TEST(Scene, IsASequenceTakenApart) {
   ASSERT_EQ(merged.materials.of_polygon.size(), whole.polygons.size());
   for (size_t p = 0; p < whole.polygons.size(); ++p)
     EXPECT_EQ(material(merged, p), material(whole, p));
+}
+
+TEST(Scene, IsClosedWhereItEndsAsItBegins) {
+  MeshSequence whole = two_boxes();
+  EXPECT_FALSE(is_closed(split_parts(whole)));
+  std::ranges::copy(whole.frame(0), whole.frame(kBoxFrames - 1).begin());
+  const Scene scene = split_parts(whole);
+  ASSERT_EQ(scene.meshes.size(), 2U);
+  EXPECT_TRUE(is_closed(scene));
+  EXPECT_TRUE(is_closed(scene_of(whole)));
+  EncodeOptions options;
+  options.target = {ErrorMetric::kMaxError, 1, true};
+  Clip clip;
+  ASSERT_TRUE(clip.open(encode(scene, options).file).ok());
+  EXPECT_TRUE(clip.clips()[0].closed);
+
+  Scene leaves = scene;
+  leaves.meshes[1].present_in.back().count -= 1;
+  EXPECT_FALSE(is_closed(leaves));
 }
 
 TEST(Scene, WithoutPartsIsOneMesh) {
