@@ -50,7 +50,7 @@ TEST(TimeSegmentation, SegmentsShareAPoseAndPlayInAnyOrder) {
   Bytes file = clip_file(ClipsRecord{}, input.layout, {&segments[0].encoded, &segments[1].encoded});
   ASSERT_TRUE(opened.open(file).ok());
   EXPECT_TRUE(opened.check_hashes().ok());
-  ASSERT_EQ(opened.encoded().size(), 2U);
+  ASSERT_EQ(opened.segments().size(), 2U);
 
   std::vector<float> a(2700), b(2700);
   double squared = 0;
@@ -71,7 +71,7 @@ TEST(TimeSegmentation, LeavesOneMotionInOnePiece) {
   options.effort = Effort::kFast;
   Clip opened;
   ASSERT_TRUE(opened.open(encode(clip, options).file).ok());
-  EXPECT_EQ(opened.encoded().size(), 1U);
+  EXPECT_EQ(opened.segments().size(), 1U);
 }
 
 }  // namespace
