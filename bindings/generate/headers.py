@@ -10,6 +10,7 @@ from typing import Dict, List, Optional, Tuple
 SIZES = {"size_t": 0, "ptrdiff_t": 0, "char": 1, "uint8_t": 1, "int16_t": 2, "int32_t": 4, "uint32_t": 4, "uint64_t": 8, "float": 4,
          "double": 8}
 HEADERS = ("sdk/include/anicodec/anicodec.h", "codec/include/anicodec/encode.h")
+INCLUDE = re.compile(r"^#include <anicodec/(\w+\.h)>.*$", re.MULTILINE)
 TOKEN = re.compile(r'(?P<doc>/\*\*.*?\*/)|(?P<comment>/\*.*?\*/)|(?P<word>\w+)|(?P<text>"[^"]*")|(?P<sign>[^\s\w])', re.DOTALL)
 
 
@@ -263,12 +264,30 @@ class _Reader:
         return Function(words[opening - 1], _type(words[:opening - 1]), parameters, doc)
 
 
+def text_of(header: pathlib.Path) -> str:
+    """The text of a header, with those of its folder that it includes in their places, once each."""
+    seen = {header.name}
+
+    def expanded(text: str) -> str:
+        def included(match: "re.Match[str]") -> str:
+            path = header.parent / match[1]
+            if not path.exists():
+                return match[0]
+            if path.name in seen:
+                return ""
+            seen.add(path.name)
+            return expanded(path.read_text(encoding="utf-8"))
+        return INCLUDE.sub(included, text)
+
+    return expanded(header.read_text(encoding="utf-8"))
+
+
 def read(checkout: pathlib.Path) -> Interface:
     """Both headers of a checkout. Raises ValueError for what the reader does not know."""
     numbers: Dict[str, int] = {}
     headers = []
     for path in HEADERS:
-        text = (checkout / path).read_text(encoding="utf-8")
+        text = text_of(checkout / path)
         header = Header(path)
         header.numbers = {name: int(number) for name, number in re.findall(r"^#define (ANIC_\w+) (\d+)$", text, re.MULTILINE)}
         numbers.update(header.numbers)

@@ -14,7 +14,9 @@ import textwrap
 
 SITE = pathlib.Path(__file__).resolve().parent
 ROOT = SITE.parent.parent
-HEADERS = {"sdk/include/anicodec/anicodec.h": "The decoder: anicodec.h", "codec/include/anicodec/encode.h": "The encoder: encode.h"}
+HEADERS = {"sdk/include/anicodec/play.h": "Open, seek, write: play.h", "sdk/include/anicodec/surface.h": "Surfaces: surface.h",
+           "sdk/include/anicodec/gpu.h": "Graphics cards: gpu.h", "sdk/include/anicodec/stream.h": "Streams: stream.h",
+           "codec/include/anicodec/encode.h": "The encoder: encode.h"}
 LINK = re.compile(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)")
 DIVIDER = re.compile(r"^/\* -{4} (.+?) -+ \*/$", re.M)
 STRUCT = re.compile(r"^typedef struct (\w+) \{(.*?)^\} \1;", re.M | re.S)

@@ -69,7 +69,7 @@ def check_kernels(commands, work):
     for name, text in STAND_INS.items():
         (stand_ins / name).write_text(text, encoding="utf-8")
     header = ROOT / "sdk/include/anicodec/anicodec.h"
-    run([tool("clang-cl"), "--target=x86_64-pc-windows-msvc", "/W4", "/WX", "/clang:-ffreestanding", "/Zs", "/TC", "--", header])
+    run([tool("clang-cl"), "--target=x86_64-pc-windows-msvc", "/W4", "/WX", "/clang:-ffreestanding", f"-I{ROOT / 'sdk/include'}", "/Zs", "/TC", "--", header])
     for source, command in commands.items():
         if source.stem not in KERNELS:
             continue

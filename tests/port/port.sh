@@ -132,7 +132,7 @@ done
 rm "$work.log"
 
 say "What the library exports"
-sed -n 's/^ANIC_API .*[ *]\(anic_[a-z_]*\)(.*/\1/p' "$prefix/include/anicodec/anicodec.h" | sort >"$work/declared"
+sed -n 's/^ANIC_API .*[ *]\(anic_[a-z_]*\)(.*/\1/p' "$prefix"/include/anicodec/{play,surface,gpu,stream}.h | sort >"$work/declared"
 case $exports in
   elf) "$nm" -D --defined-only "$prefix/lib/libanicodec.so" | awk '{print $3}' ;;
   # Zig's linker takes no list of exports, and the operators new and delete of its own library come along.

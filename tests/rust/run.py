@@ -42,12 +42,14 @@ def without_comments(text):
 def declaration_faults(checkout, work, compiler):
     """Differences between what anicodec-sys declares and the headers. Its layouts are checked when it is compiled: they must
     be those of C, too."""
+    sys.path.insert(0, str(checkout / "bindings" / "generate"))
+    import headers
     prints, ours = [], {}
     declared = {"function": set(), "constant": set(), "struct": set()}
     told = {"function": set(), "constant": set(), "struct": set()}
     for source, header in HEADERS.items():
         rust = (checkout / "bindings/rust/anicodec-sys/src" / source).read_text(encoding="utf-8")
-        c = without_comments((checkout / header).read_text(encoding="utf-8"))
+        c = without_comments(headers.text_of(checkout / header))
         told["function"] |= set(re.findall(r"ANIC_API[^;]*?\b(anic_\w+)\(", c))
         declared["function"] |= set(re.findall(r"\bpub fn (anic_\w+)\(", rust))
         told["constant"] |= set(re.findall(r"\b(ANIC_[A-Z0-9_]+) =\s*\d+", c)) | set(re.findall(r"#define (ANIC_[A-Z_]+) \d+\n", c))

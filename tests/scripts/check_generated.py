@@ -26,7 +26,7 @@ def of_clang(index, cindex, checkout, path):
         raise SystemExit("\n".join(wrong))
     kinds = cindex.CursorKind
     for cursor in unit.cursor.get_children():
-        if not cursor.location.file or pathlib.Path(cursor.location.file.name) != checkout / path:
+        if not cursor.location.file or pathlib.Path(cursor.location.file.name).parent != (checkout / path).parent:
             continue
         if cursor.kind == kinds.ENUM_DECL:
             for constant in cursor.get_children():

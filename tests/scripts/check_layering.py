@@ -218,7 +218,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"][^>"]*[>"])', re.MULTILINE)
 STANDARD = re.compile(r"^<[a-z_0-9]+>$")
 # Extensions of compilers stand in one header.
 EXTENSION = re.compile(r"__builtin_\w+|__attribute__")
-EXTENDS = {"format/compiler.h", "sdk/include/anicodec/anicodec.h"}
+EXTENDS = {"format/compiler.h", "sdk/include/anicodec/play.h"}
 NO_EXTENSIONS = {"format", "sdk", "codec"}
 THROW = re.compile(r"^[^/\"]*\bthrow\b", re.MULTILINE)
 

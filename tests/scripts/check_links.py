@@ -15,7 +15,7 @@ LINK = re.compile(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)")
 SOURCE = re.compile(r"`((?:[a-z0-9_.-]+/)+[a-z0-9_.-]+\.(?:h|hpp|cpp|c|py|md))`")
 CONTENTS = "docs/site/index.md"
 ENTRY = re.compile(r"\{doc\}`(?:[^<`]*<)?/([^>`]+)>?`|^(?:[^`{|\n]*<)?([\w./-]+)>?$", re.M)
-MADE = ("gallery", "reference/anicodec", "reference/encode", "reference/javascript/")
+MADE = ("gallery", "reference/gpu", "reference/play", "reference/stream", "reference/surface", "reference/encode", "reference/javascript/")
 
 
 def missing(root, page):

@@ -107,7 +107,7 @@ enumeration! {
 }
 
 /// How a basis lies in textures: a layer is `rows` rows of `width` texels, a texel for each vertex; layers lie below one
-/// another. `anicodec.h` describes them with `anic_texture_layout`.
+/// another. `gpu.h` describes them with `anic_texture_layout`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct TextureLayout {
@@ -329,7 +329,7 @@ impl<'a> Shown<'a> {
             .collect()
     }
 
-    /// The numbers that a shader needs for one part, ready to be uploaded for each instance: `anicodec.h` tells its layout with
+    /// The numbers that a shader needs for one part, ready to be uploaded for each instance: `gpu.h` tells its layout with
     /// `anic_write_state`.
     pub fn state(&self, part: u32) -> Result<Vec<f32>> {
         let parts = self.parts()?;

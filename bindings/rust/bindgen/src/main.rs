@@ -46,7 +46,7 @@ fn main() {
     let mut stale = false;
     for (name, header, skipped) in [
         ("decoder.rs", "sdk/include/anicodec/anicodec.h", None),
-        ("encoder.rs", "codec/include/anicodec/encode.h", Some(".*anicodec/anicodec\\.h")),
+        ("encoder.rs", "codec/include/anicodec/encode.h", Some(".*sdk/include/anicodec/.*\\.h")),
     ] {
         let text = declarations(&repository, header, skipped);
         let file = sources.join(name);
