@@ -61,12 +61,12 @@ class Logistic {
 /// it has seen kCountLimit.
 class MixCounter {
  public:
-  int32_t stretch() const { return Logistic::stretch(state_ >> 20); }
+  int32_t stretch() const { return Logistic::stretch((state_ ^ kStart) >> 20); }
 
   void update(bool bit) {
     const uint32_t count = state_ & 1023;
     // The probability stays in [0, 2^22): the rate is below one, and rounding down cannot pass 0.
-    const int64_t error = int64_t{bit ? kOne - 1 : 0} - (state_ >> 10);
+    const int64_t error = int64_t{bit ? kOne - 1 : 0} - ((state_ ^ kStart) >> 10);
     const int64_t step = (error * kAdaptationRates.value[count]) >> 15;
     state_ += static_cast<uint32_t>(step) << 10;
     state_ += count < kCountLimit;
@@ -75,8 +75,11 @@ class MixCounter {
  private:
   static constexpr int32_t kOne = 1 << 22;
   static constexpr uint32_t kCountLimit = 255;
+  static constexpr uint32_t kStart = uint32_t{kOne / 2} << 10;
 
-  uint32_t state_ = uint32_t{kOne / 2} << 10;  ///< probability of a one in 22 bits, count in 10
+  /// Probability of a one in 22 bits, count in 10; its highest bit is flipped, so that a counter
+  /// begins as 0: compilers clear many of them by memset.
+  uint32_t state_ = 0;
 };
 
 /// Learning rate of a set of weights after n bits, in 1/1024.
