@@ -78,6 +78,15 @@ export declare class AnicInstances extends Mesh {
   update(): boolean;
   /** The first hit of a ray, with its `thinInstanceIndex`; null if there is none. Scene.pick() finds the same. */
   pick(ray: Ray): PickingInfo | null;
+  /**
+   * Keeps a node on a point of an instance's surface, as AnicMesh.anchor() does: what a scene's pick() or pick() found, or a point with
+   * the number `thinInstanceIndex` of the instance, the first one if it has none.
+   */
+  anchor(point: Pick<PickingInfo, 'faceId' | 'bu' | 'bv' | 'thinInstanceIndex'> | (SurfacePoint & { thinInstanceIndex?: number }), node?: TransformNode): TransformNode;
+  /** Names of the fields of the mesh. */
+  readonly fields: string[];
+  /** Shows a field as colours, as AnicMesh.showField() does, at the time of each instance; a material is copied. Without a name the materials come back. */
+  showField(name?: string, options?: { low?: number; high?: number; material?: Material }): ShownField | undefined;
   /** Reads back what the card made: positions in the order of the source, or normals of the vertices. */
   read(instance: number, what?: 'positions' | 'normals'): Promise<Float32Array>;
 }

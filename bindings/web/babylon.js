@@ -7,10 +7,9 @@ import { AnimationGroup } from '@babylonjs/core/Animations/animationGroup.js';
 import { VertexBuffer } from '@babylonjs/core/Buffers/buffer.js';
 import { StandardMaterial } from '@babylonjs/core/Materials/standardMaterial.js';
 import { Color3 } from '@babylonjs/core/Maths/math.color.js';
-import { Quaternion, Vector3 } from '@babylonjs/core/Maths/math.vector.js';
 import { Mesh } from '@babylonjs/core/Meshes/mesh.js';
 import { TransformNode } from '@babylonjs/core/Meshes/transformNode.js';
-import { boundingInfo, giveSurface, turnToScene } from './babylon_surface.js';
+import { boundingInfo, giveSurface, placeOnSurface, turnToScene } from './babylon_surface.js';
 import { fieldNames, fieldOf, writeFieldColours } from './fields.js';
 import { EXTENSION } from './glb.js';
 import { GltfSurface } from './gltf_surface.js';
@@ -118,15 +117,7 @@ export class AnicPlayer extends TransformNode {
   }
 
   #place({ node, place: { mesh, ...point } }, time, options) {
-    const present = mesh.isPresent(time, options);
-    node.setEnabled(present);
-    if (!present)
-      return;
-    const { position, normal, tangent } = mesh.surfaceFrame(point, time, options), x = Vector3.FromArray(tangent), y = Vector3.FromArray(normal);
-    node.position.copyFromFloats(...position);
-    node.rotationQuaternion = Quaternion.RotationQuaternionFromAxis(x, y, Vector3.Cross(x, y));
-    // Clips are mirrored in a left-handed scene, but not what is on them.
-    node.scaling.z = this.getScene().useRightHandedSystem ? 1 : -1;
+    placeOnSurface(node, mesh, point, time, options);
   }
 }
 

@@ -15,19 +15,25 @@ import { ShadowDepthWrapper } from '@babylonjs/core/Materials/shadowDepthWrapper
 import { RawTexture } from '@babylonjs/core/Materials/Textures/rawTexture.js';
 import { RawTexture2DArray } from '@babylonjs/core/Materials/Textures/rawTexture2DArray.js';
 import { RenderTargetTexture } from '@babylonjs/core/Materials/Textures/renderTargetTexture.js';
-import { Matrix } from '@babylonjs/core/Maths/math.vector.js';
+import { StandardMaterial } from '@babylonjs/core/Materials/standardMaterial.js';
+import { Color3 } from '@babylonjs/core/Maths/math.color.js';
+import { Matrix, Vector3 } from '@babylonjs/core/Maths/math.vector.js';
 import { Mesh } from '@babylonjs/core/Meshes/mesh.js';
+import { TransformNode } from '@babylonjs/core/Meshes/transformNode.js';
 import '@babylonjs/core/Meshes/thinInstanceMesh.js';
-import { boundingInfo, giveSurface, turnToScene } from './babylon_surface.js';
-import { FETCH, FULL, InstanceStates, NORMALS, POSITIONS, WIDTH, normalTexels, pointsOf, rowsOf } from './instance_textures.js';
+import { boundingInfo, giveSurface, placeOnSurface, turnToScene } from './babylon_surface.js';
+import { FieldSteps, stepColours } from './field_steps.js';
+import { fieldNames, fieldOf } from './fields.js';
+import { FETCH, FIELD, FULL, InstanceStates, NORMALS, POSITIONS, WIDTH, normalTexels, pointsOf, rowsOf } from './instance_textures.js';
 
 const NEAREST = Constants.TEXTURE_NEAREST_SAMPLINGMODE;
 const FLOATS = [Constants.TEXTUREFORMAT_RGBA, Constants.TEXTURETYPE_FLOAT];
+const BYTES = [Constants.TEXTUREFORMAT_R, Constants.TEXTURETYPE_UNSIGNED_BYTE];
 const INTEGERS = new Map([
   [Int16Array, Constants.TEXTURETYPE_SHORT], [Int32Array, Constants.TEXTURETYPE_INT], [Uint32Array, Constants.TEXTURETYPE_UNSIGNED_INTEGER],
 ]);
 
-const kindOf = (data) => (data instanceof Float32Array ? FLOATS : [Constants.TEXTUREFORMAT_RGBA_INTEGER, INTEGERS.get(data.constructor)]);
+const kindOf = (data) => (data instanceof Float32Array ? FLOATS : data instanceof Uint8Array ? BYTES : [Constants.TEXTUREFORMAT_RGBA_INTEGER, INTEGERS.get(data.constructor)]);
 
 function sheet(scene, data, width, height) {
   const [format, type] = kindOf(data);
@@ -52,8 +58,8 @@ class FetchPlugin extends MaterialPluginBase {
   #textures;
   #rows;
 
-  constructor(material, textures, rows) {
-    super(material, 'AnicInstances', 200, { ANICODEC: true });
+  constructor(material, textures, rows, defines = {}) {
+    super(material, 'AnicInstances', 200, { ANICODEC: true, ...defines });
     this.#textures = textures;
     this.#rows = rows;
     this._enable(true);
@@ -64,11 +70,11 @@ class FetchPlugin extends MaterialPluginBase {
   getSamplers(samplers) { samplers.push('anicPositions', 'anicNormals'); }
 
   getUniforms() {
-    return { ubo: [{ name: 'anicSize', size: 2, type: 'vec2' }], vertex: 'uniform vec2 anicSize;' };
+    return { ubo: [{ name: 'anicSize', size: 3, type: 'vec3' }], vertex: 'uniform vec3 anicSize;' };
   }
 
   bindForSubMesh(uniforms) {
-    uniforms.updateFloat2('anicSize', this.#rows.normals, this.#rows.positions);
+    uniforms.updateFloat3('anicSize', this.#rows.normals, this.#rows.positions, this.#rows.field ?? 0);
     uniforms.setTexture('anicPositions', this.#textures.positions);
     uniforms.setTexture('anicNormals', this.#textures.normals);
   }
@@ -87,6 +93,39 @@ ${FETCH}`,
   }
 }
 
+/** The same, with the colours of a field: { texture, colours, rows }. */
+class FieldPlugin extends FetchPlugin {
+  #field;
+
+  constructor(material, textures, rows, field) {
+    super(material, textures, { ...rows, field: field.rows }, { ANICODEC_FIELD: true });
+    this.#field = field;
+  }
+
+  getSamplers(samplers) {
+    super.getSamplers(samplers);
+    samplers.push('anicField', 'anicColours');
+  }
+
+  bindForSubMesh(uniforms) {
+    super.bindForSubMesh(uniforms);
+    uniforms.setTexture('anicField', this.#field.texture);
+    uniforms.setTexture('anicColours', this.#field.colours);
+  }
+
+  getCustomCode(stage) {
+    const code = super.getCustomCode(stage);
+    return code && {
+      ...code,
+      CUSTOM_VERTEX_DEFINITIONS: `${code.CUSTOM_VERTEX_DEFINITIONS}
+uniform highp sampler2D anicField, anicColours;
+#define anicFieldRows int(anicSize.z)
+${FIELD}`,
+      CUSTOM_VERTEX_MAIN_END: 'vColor = vec4(anicFieldColour(), 1.0);',
+    };
+  }
+}
+
 /** Instances of a mesh of a clip. `times` are seconds, of the clips that `clips` numbers; matrices are those of thin instances. */
 export class AnicInstances extends Mesh {
   #mesh;
@@ -97,6 +136,9 @@ export class AnicInstances extends Mesh {
   #renderer;
   #passes;
   #plan;
+  #prepare;
+  #anchors = [];
+  #shown;  // of a field: its bytes and textures, the material and the colours before
 
   constructor(mesh, count, scene, material, options = {}) {
     super(mesh.name || 'anic', scene);
@@ -120,13 +162,15 @@ export class AnicInstances extends Mesh {
     this.#passes = { positions: pass(engine, 'positions', POSITIONS), normals: pass(engine, 'normals', NORMALS) };
     const { elements, corners } = normalTexels(mesh);
     this.#plan = { elements: sheet(scene, elements.data, WIDTH, elements.rows), corners: sheet(scene, corners.data, WIDTH, corners.rows) };
-    const prepare = (one) => {
-      const own = material ? one.clone(one.name) : one;
-      new FetchPlugin(own, this.#targets, this.#rows);
-      own.shadowDepthWrapper = new ShadowDepthWrapper(own, scene);
-      return own;
+    this.#prepare = (one, field) => {
+      if (field)
+        new FieldPlugin(one, this.#targets, this.#rows, field);
+      else
+        new FetchPlugin(one, this.#targets, this.#rows);
+      one.shadowDepthWrapper = new ShadowDepthWrapper(one, scene);
+      return one;
     };
-    giveSurface(this, mesh, scene, { material, prepare, updatable: false });
+    giveSurface(this, mesh, scene, { material, prepare: (one) => this.#prepare(material ? one.clone(one.name) : one), updatable: false });
     turnToScene(this, mesh.clip, scene);
     this.alwaysSelectAsActiveMesh = true;  // instances are elsewhere than the box of the mesh
     this.rawBoundingInfo = boundingInfo(mesh.bounds);  // or it would be made of the positions, which are 0
@@ -198,7 +242,67 @@ export class AnicInstances extends Mesh {
     this.#renderer.restoreStates();
     engine.restoreDefaultFramebuffer();
     this.madeByCpu = byCpu.length;
+    this.#anchors = this.#anchors.filter(({ node }) => node.parent === this && !node.isDisposed());
+    for (const anchor of this.#anchors)
+      this.#place(anchor);
+    if (this.#shown?.steps.update(this.times, (i) => this.#optionsOf(i)))
+      this.#shown.texture.update(this.#shown.steps.data);
     return true;
+  }
+
+  /**
+   * Keeps a node on a point of an instance's surface, as AnicMesh.anchor() does: a PickingInfo, or a point of ClipMesh.intersectRay(), with
+   * the number `thinInstanceIndex`. update() moves it.
+   */
+  anchor({ thinInstanceIndex: instance = 0, faceId, bu, bv, vertices, weights }, node = new TransformNode('anchor', this.getScene())) {
+    if (!(instance >= 0 && instance < this.times.length))
+      throw new Error(`there is no instance ${instance} of ${this.times.length}`);
+    const point = vertices ? { vertices, weights } : { vertices: this.#mesh.indices.slice(3 * faceId, 3 * faceId + 3), weights: [bu, bv, 1 - bu - bv] };
+    const anchor = { node, instance, point };
+    this.#place(anchor);  // throws for a point that is none
+    this.#anchors = [...this.#anchors.filter((one) => one.node !== node), anchor];
+    node.parent = this;
+    return node;
+  }
+
+  #place({ node, instance, point }) {
+    if (!placeOnSurface(node, this.#mesh, point, this.times[instance], this.#optionsOf(instance)))
+      return;
+    const matrix = Matrix.Compose(new Vector3(1, 1, node.scaling.z), node.rotationQuaternion, node.position).multiply(this.thinInstanceGetWorldMatrices()[instance]);
+    matrix.decompose(node.scaling, node.rotationQuaternion, node.position);
+  }
+
+  /** Names of the fields of the mesh. */
+  get fields() { return fieldNames({ meshes: [this.#mesh] }); }
+
+  /** Shows a field as colours, as AnicMesh.showField() does, from the next update() on. Each instance has those of its time. */
+  showField(name, { material, ...range } = {}) {
+    const scene = this.getScene(), mesh = this.#mesh, kind = VertexBuffer.ColorKind;
+    const field = name === undefined ? undefined : fieldOf(mesh.clip, name, mesh.clip.find(this.clips[0]), range);
+    const own = this.#shown?.own ?? { material: this.material, colours: this.getVerticesData(kind)?.slice(), width: this.getVertexBuffer(kind)?.getSize() };
+    this.#hideField();
+    this.material = own.material;
+    if (!field) {
+      if (own.colours)
+        this.setVerticesData(kind, own.colours, false, own.width);
+      else
+        this.removeVerticesData(kind);
+      return undefined;
+    }
+    const rows = this.#rows.normals, steps = new FieldSteps(mesh, field, this.times.length, WIDTH * rows);
+    const texture = sheet(scene, steps.data, WIDTH, steps.data.length / WIDTH), colours = sheet(scene, stepColours('srgb'), 256, 1);
+    const plain = () => Object.assign(new StandardMaterial('field', scene), { backFaceCulling: false, twoSidedLighting: true, specularColor: Color3.Black() });
+    const made = this.#prepare(material?.clone(material.name) ?? plain(), { texture, colours, rows: steps.moves ? rows : 0 });
+    this.setVerticesData(kind, new Float32Array(4 * mesh.vertexCount).fill(1), false, 4);  // lets the material have colours
+    this.material = made;
+    this.#shown = { own, steps, texture, colours, made };
+    return field;
+  }
+
+  #hideField() {
+    for (const one of ['texture', 'colours', 'made'])
+      this.#shown?.[one].dispose();
+    this.#shown = undefined;
   }
 
   /** Reads back what the card made: positions in the order of the source, or normals. For tests. */
@@ -235,6 +339,7 @@ export class AnicInstances extends Mesh {
   }
 
   #release() {
+    this.#hideField();
     const made = [...this.#states.segments].flatMap((segment) => Object.values(segment.made ?? {}));
     for (const one of [...made, ...Object.values(this.#targets), ...Object.values(this.#plan), ...Object.values(this.#passes), this.#renderer, this.#state])
       one?.dispose();

@@ -8,7 +8,7 @@ import { MultiMaterial } from '@babylonjs/core/Materials/multiMaterial.js';
 import { PBRMetallicRoughnessMaterial } from '@babylonjs/core/Materials/PBR/pbrMetallicRoughnessMaterial.js';
 import { StandardMaterial } from '@babylonjs/core/Materials/standardMaterial.js';
 import { Color3 } from '@babylonjs/core/Maths/math.color.js';
-import { Vector3 } from '@babylonjs/core/Maths/math.vector.js';
+import { Quaternion, Vector3 } from '@babylonjs/core/Maths/math.vector.js';
 import { SubMesh } from '@babylonjs/core/Meshes/subMesh.js';
 
 export const boundingInfo = ({ min, max }) => new BoundingInfo(Vector3.FromArray(min), Vector3.FromArray(max));
@@ -59,4 +59,18 @@ export function turnToScene(node, clip, scene) {
     node.scaling.z = -1;
   if (clip.info.up === 'z')
     node.rotation.x = scene.useRightHandedSystem ? -Math.PI / 2 : Math.PI / 2;
+}
+
+/** Places a node on a point of a mesh's surface, in the space of the clip; false, and it is disabled, when the mesh is not there. */
+export function placeOnSurface(node, mesh, point, time, options) {
+  const present = mesh.isPresent(time, options);
+  node.setEnabled(present);
+  if (!present)
+    return false;
+  const { position, normal, tangent } = mesh.surfaceFrame(point, time, options), x = Vector3.FromArray(tangent), y = Vector3.FromArray(normal);
+  node.position.copyFromFloats(...position);
+  node.rotationQuaternion = Quaternion.RotationQuaternionFromAxis(x, y, Vector3.Cross(x, y));
+  // Clips are mirrored in a left-handed scene, but not what is on them.
+  node.scaling.z = node.getScene().useRightHandedSystem ? 1 : -1;
+  return true;
 }

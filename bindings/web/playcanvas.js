@@ -3,12 +3,13 @@
 //
 // Clips in PlayCanvas: a script of entities that opens a file, shows and plays it.
 import {
-  BLEND_NORMAL, BoundingBox, CULLFACE_BACK, CULLFACE_NONE, Entity, Mat4, Mesh, MeshInstance, PRIMITIVE_POINTS, PRIMITIVE_TRIANGLES, Quat, Script, StandardMaterial,
-  Vec3,
+  BLEND_NORMAL, BoundingBox, CULLFACE_BACK, CULLFACE_NONE, Entity, Mesh, MeshInstance, PRIMITIVE_POINTS, PRIMITIVE_TRIANGLES, StandardMaterial,
 } from 'playcanvas';
 import { fieldNames, fieldOf, writeFieldColours } from './fields.js';
 import { open } from './index.js';
-import { sampleOf } from './moments.js';
+import { Player, boxOf } from './playcanvas_player.js';
+
+export { AnicScene, loadAnicScene } from './playcanvas_gltf.js';
 
 /** The material of a group of triangles, with the values that the file has; `userData` names its images. */
 function materialOf({ material: name = 'anic', look }) {
@@ -25,12 +26,6 @@ function materialOf({ material: name = 'anic', look }) {
       Object.assign(made, { blendType: BLEND_NORMAL, depthWrite: false });
   }
   return made;
-}
-
-function boxOf({ min, max }) {
-  const box = new BoundingBox();
-  box.setMinMax(new Vec3(...min), new Vec3(...max));
-  return box;
 }
 
 /** A mesh of a clip on the graphics card, drawn once for each of its materials. */
@@ -124,7 +119,7 @@ class Part {
 }
 
 /** Shows an .anic file below its entity. */
-export class AnicPlayer extends Script {
+export class AnicPlayer extends Player {
   static scriptName = 'anicPlayer';
 
   /**
@@ -165,16 +160,8 @@ export class AnicPlayer extends Script {
   /** Options of open(), before the script is initialized. */
   options = {};
 
-  sampling = undefined;
-
-  clip = undefined;
-
-  #moments = [];  // that are shown, the newest last
-  #fade = 0;
   #parts = [];
-  #shown = '';
   #field;
-  #anchors = [];
   #gone = false;
 
   initialize() {
@@ -206,7 +193,7 @@ export class AnicPlayer extends Script {
     this.holder.render.meshInstances = this.#parts.flatMap(({ instances }) => instances);
     this.entity.addChild(this.holder);
     this.play(this.clipName || undefined);
-    this.#show(true);
+    this.refresh(true);
     this.fire('load', clip);
     return this;
   }
@@ -214,94 +201,25 @@ export class AnicPlayer extends Script {
   /** The instances that are drawn: their materials may be replaced. */
   get meshInstances() { return this.#parts.flatMap(({ instances }) => instances); }
 
-  /** Plays a clip, by its name or number; the one before fades out within `fade` seconds. */
-  play(clip, { fade = 0, time = 0 } = {}) {
-    const { index } = this.clip.find(clip);
-    this.#fade = fade;
-    this.#moments = fade > 0 ? this.#moments.map((one) => ({ ...one, share: one.weight })) : [];
-    this.#moments.push({ clip: index, time, weight: this.#moments.length > 0 ? 0 : 1, share: 1 });
-  }
-
-  /** Name of the clip that plays. */
-  get current() { return this.clip.clips[this.#moments.at(-1).clip].name; }
-
-  /** Seconds from its first frame. */
-  get time() { return this.#moments.at(-1).time; }
-
-  set time(seconds) { this.#moments.at(-1).time = seconds; }
-
   /** Names of the fields: numbers beside positions, such as temperatures. */
   get fields() { return fieldNames(this.clip); }
 
   /** Shows a field as colours; without a name those of the file again. Returns { name, low, high }. Throws if there is no such field. */
   showField(name, range) {
     this.#field = name === undefined ? undefined : fieldOf(this.clip, name, this.clip.find(this.current), range);
-    this.#show(true);
+    this.refresh(true);
     return this.#field;
   }
 
-  update(seconds) {
-    if (!this.clip)
-      return;
-    if (this.playing) {
-      for (const moment of this.#moments)
-        moment.time += seconds * this.speed;
-      this.#mix(seconds);
-    }
-    this.#show(false);
-  }
-
-  #mix(seconds) {
-    const newest = this.#moments.at(-1), others = this.#moments.slice(0, -1);
-    if (others.length === 0)
-      return;
-    newest.weight = Math.min(newest.weight + seconds / this.#fade, 1);
-    if (newest.weight === 1)
-      this.#moments = [newest];
-    for (const one of others)
-      one.weight = one.share * (1 - newest.weight);
-  }
-
-  /** The moment that is shown now, as sampleOf() gives it. */
-  #sample() {
-    const largest = this.#moments.filter(({ weight }) => weight > 0).sort((a, b) => b.weight - a.weight);
-    return sampleOf(largest, { sampling: this.sampling, wrap: this.loop ? 'loop' : 'clamp' });
-  }
-
-  #show(all) {
-    const { time, options, key } = this.#sample();
-    if (key === this.#shown && !all)
-      return;
+  show(time, options, all) {
     for (const part of this.#parts)
       part.show(time, options, this.#field, all);
-    this.#shown = key;
-    this.#anchors = this.#anchors.filter(({ entity }) => entity.parent === this.holder);
-    for (const anchor of this.#anchors)
-      this.#place(anchor, time, options);
   }
 
-  /**
-   * Keeps an entity on a point of the surface, as what is held or worn: its y axis is the normal, x the tangent. The point is a hit of
-   * ClipMesh.intersectRay() with the number of the `mesh`. Below another parent, the entity is free again.
-   */
-  anchor({ mesh = 0, vertices, weights }, entity = new Entity('anchor')) {
+  pointOf(mesh) {
     if (!this.#parts[mesh])
       throw new Error(`the clip has no mesh ${mesh}`);
-    const anchor = { entity, mesh: this.#parts[mesh].mesh, point: { vertices, weights } }, { time, options } = this.#sample();
-    this.#place(anchor, time, options);  // throws for a point that is none
-    this.#anchors = [...this.#anchors.filter((one) => one.entity !== entity), anchor];
-    if (entity.parent !== this.holder)
-      entity.reparent(this.holder);
-    return entity;
-  }
-
-  #place({ entity, mesh, point }, time, options) {
-    entity.enabled = mesh.isPresent(time, options);
-    if (!entity.enabled)
-      return;
-    const { position, normal, tangent } = mesh.surfaceFrame(point, time, options), z = new Vec3().cross(new Vec3(...tangent), new Vec3(...normal));
-    entity.setLocalPosition(...position);
-    entity.setLocalRotation(new Quat().setFromMat4(new Mat4().set([...tangent, 0, ...normal, 0, z.x, z.y, z.z, 0, 0, 0, 0, 1])));
+    return { parent: this.holder, mesh: this.#parts[mesh].mesh };
   }
 
   #release() {

@@ -13,7 +13,7 @@ import {
   OrthographicCamera, RGBADepthPacking, RGBAFormat, RGBAIntegerFormat, RawShaderMaterial, RedFormat, ShortType, Sphere, UnsignedByteType, UnsignedIntType,
   Vector2, Vector3, WebGLRenderTarget,
 } from 'three';
-import { fieldMoves, stepColours, writeFieldSteps } from './field_steps.js';
+import { FieldSteps, stepColours } from './field_steps.js';
 import { fieldNames, fieldOf } from './fields.js';
 import { FETCH, FIELD, FULL, InstanceStates, NORMALS, POSITIONS, WIDTH, normalTexels, pointsOf, rowsOf } from './instance_textures.js';
 import { InstanceAnchors } from './three_instance_anchors.js';
@@ -49,7 +49,7 @@ export class AnicInstances extends InstancedMesh {
   #passes;
   #patched;
   #anchors;
-  #shown;  // of a field: texture, moments that it has, the materials before
+  #shown;  // of a field: its bytes and textures, the material before
 
   constructor(mesh, count, material = new MeshStandardMaterial(), options = {}) {
     const geometry = new BufferGeometry();
@@ -166,8 +166,8 @@ export class AnicInstances extends InstancedMesh {
     renderer.setRenderTarget(target);
     renderer.autoClear = clears;
     this.#anchors.update();
-    if (this.#shown)
-      this.#paint();
+    if (this.#shown?.steps.update(this.times, (i) => this.#optionsOf(i)))
+      this.#shown.texture.needsUpdate = true;
   }
 
   /**
@@ -192,27 +192,14 @@ export class AnicInstances extends InstancedMesh {
     this.#shown = undefined;
     if (!field)
       return undefined;
-    const moves = fieldMoves(this.#mesh, field), rows = this.#rows, height = moves ? rows * this.count : rows;
-    const texture = sheet(new Uint8Array(WIDTH * height), WIDTH, height, [UnsignedByteType, RedFormat, 'R8']), colours = sheet(stepColours(), 256, 1, FLOATS);
+    const rows = this.#rows, steps = new FieldSteps(this.#mesh, field, this.count, WIDTH * rows);
+    const texture = sheet(steps.data, WIDTH, steps.data.length / WIDTH, [UnsignedByteType, RedFormat, 'R8']), colours = sheet(stepColours(), 256, 1, FLOATS);
     this.material = this.#patched(material?.clone() ?? new MeshStandardMaterial({ side: DoubleSide }), {
-      anicField: { value: texture }, anicColours: { value: colours }, anicFieldRows: { value: moves ? rows : 0 },
+      anicField: { value: texture }, anicColours: { value: colours }, anicFieldRows: { value: steps.moves ? rows : 0 },
     });
     this.material.vertexColors = true;
-    this.#shown = { own, field, texture, colours, times: new Array(moves ? this.count : 1) };
+    this.#shown = { own, steps, texture, colours };
     return field;
-  }
-
-  /** Brings the bytes of a field to the times of the instances. */
-  #paint() {
-    const { field, texture, times } = this.#shown, { data } = texture.image, size = WIDTH * this.#rows;
-    for (let i = 0; i < times.length; ++i) {
-      const key = `${this.clips[i]} ${this.times[i]}`;
-      if (times[i] === key || (times.length === 1 && times[i] !== undefined))
-        continue;
-      writeFieldSteps(this.#mesh, field, this.times[i], this.#optionsOf(i), data.subarray(i * size, (i + 1) * size));
-      times[i] = key;
-      texture.needsUpdate = true;
-    }
   }
 
   /** Positions of one instance by the CPU. */

@@ -3,7 +3,7 @@
 import type { Group, Intersection, Material, Matrix4, Mesh, Raycaster } from 'three';
 import type { WebGPURenderer } from 'three/webgpu';
 import type { ClipMesh, SampleOptions } from './index.js';
-import type { InstanceAnchorPoint } from './three.js';
+import type { InstanceAnchorPoint, ShownField } from './three.js';
 
 /**
  * Many instances of a mesh at different times, drawn by one call of WebGPURenderer: a compute pass combines the resident basis,
@@ -25,6 +25,10 @@ export declare class AnicInstances extends Mesh {
   update(renderer: WebGPURenderer): void;
   /** Keeps a group on a point of an instance's surface, as AnicMesh.anchor() does; update() moves it. */
   anchor(point: InstanceAnchorPoint, group?: Group): Group;
+  /** Names of the fields of the mesh. */
+  readonly fields: string[];
+  /** Shows a field as colours, as AnicMesh.showField() does, at the time of each instance from the next update() on; a material is copied. Without a name the materials come back. */
+  showField(name?: string, options?: { low?: number; high?: number; material?: Material }): ShownField | undefined;
   /** Reads back what the card made: positions in the order of the source. */
   read(renderer: WebGPURenderer, instance: number): Promise<Float32Array>;
   raycast(raycaster: Raycaster, intersects: Intersection[]): void;

@@ -6,10 +6,14 @@
 // A compute pass combines the resident basis into positions, in the order of the source. The vertex shader of any node
 // material reads them, and sums over the same corners as the CPU does into smooth normals. Frames that need more than a
 // combination (corrections, times between two segments, geometry interpolation) are filled by the CPU.
-import { Fn, If, Loop, Return, cross, dot, float, instanceIndex, int, normalLocal, normalize, storage, uint, vec3, vec4, vertexIndex } from 'three/tsl';
 import {
-  BufferAttribute, BufferGeometry, Mesh, MeshStandardNodeMaterial, Sphere, StorageBufferAttribute, Vector3,
+  Fn, If, Loop, Return, cross, dot, float, instanceIndex, int, materialColor, normalLocal, normalize, storage, uint, varying, vec3, vec4, vertexIndex,
+} from 'three/tsl';
+import {
+  BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshStandardNodeMaterial, Sphere, StorageBufferAttribute, Vector3,
 } from 'three/webgpu';
+import { FieldSteps, stepColours } from './field_steps.js';
+import { fieldNames, fieldOf } from './fields.js';
 import { InstanceAnchors } from './three_instance_anchors.js';
 import { raycastInstances } from './three_rays.js';
 
@@ -41,6 +45,7 @@ export class AnicInstances extends Mesh {
   #positions;
   #plan;
   #anchors;
+  #painted;  // with a field: its bytes and their buffer, the material before
 
   constructor(mesh, count, material = new MeshStandardNodeMaterial(), options = {}) {
     const geometry = new BufferGeometry(), n = mesh.vertexCount;
@@ -204,10 +209,37 @@ export class AnicInstances extends Mesh {
     for (const segment of segments)
       renderer.compute(this.#segment(segment).pass);
     this.#anchors.update();
+    if (this.#painted?.steps.update(this.times, (i) => this.#optionsOf(i)))
+      this.#painted.words.attribute.needsUpdate = true;
   }
 
   /** Keeps a group on a point of an instance's surface: a hit of a Raycaster, or a point of ClipMesh.intersectRay() with `instanceId`. */
   anchor(point, group) { return this.#anchors.add(point, group); }
+
+  /** Names of the fields of the mesh. */
+  get fields() { return fieldNames({ meshes: [this.#mesh] }); }
+
+  /** Shows a field as colours, as AnicMesh.showField() does, from the next update() on. Each instance has those of its time. */
+  showField(name, { material, ...range } = {}) {
+    const mesh = this.#mesh, field = name === undefined ? undefined : fieldOf(mesh.clip, name, mesh.clip.find(this.clips[0]), range);
+    const own = this.#painted?.own ?? this.material;
+    if (this.#painted)
+      this.material.dispose();
+    this.material = own;
+    this.#painted = undefined;
+    if (!field)
+      return undefined;
+    const each = Math.ceil(mesh.vertexCount / 4), steps = new FieldSteps(mesh, field, this.count, 4 * each);
+    const words = reading(new Uint32Array(steps.data.buffer), 1, 'uint'), colours = reading(stepColours(), 4, 'vec4');
+    this.material = material?.clone() ?? new MeshStandardNodeMaterial({ side: DoubleSide });
+    this.material.positionNode = own.positionNode;
+    this.material.colorNode = materialColor.mul(varying(Fn(() => {
+      const v = int(vertexIndex), word = words.element((steps.moves ? int(instanceIndex).mul(each) : int(0)).add(v.div(4)));
+      return colours.element(int(word.shiftRight(uint(v.mod(4)).mul(uint(8))).bitAnd(uint(255)))).xyz;
+    })()));
+    this.#painted = { own, steps, words };
+    return field;
+  }
 
   /** The positions that the card made, or that it is given when it draws: in the order of the source. For tests. */
   async read(renderer, instance) {
@@ -224,6 +256,7 @@ export class AnicInstances extends Mesh {
   }
 
   dispose() {
+    this.showField();
     for (const { pass } of this.#segments.values())
       pass?.dispose();
     this.geometry.dispose();

@@ -314,3 +314,100 @@ test('Babylon.js draws instances by the graphics card as the CPU does', { skip }
   }
   assert.ok(byCard >= 5);
 });
+
+test('Babylon.js shows fields of instances, and keeps nodes on their surfaces', { skip }, async () => {
+  const server = await serve({ '/page': PAGE });
+  try {
+    await withPage(async (page, messages) => {
+      await page.goto(`${server.url}/page`);
+      const results = await page.evaluate(async () => {
+        const { AnicInstances, AnicMesh } = await import('anicodec/babylon'), { Anicodec } = await import('anicodec');
+        const B = globalThis.BABYLON, canvas = document.getElementById('canvas'), outcomes = [];
+        for (const right of [false, true]) {
+          const engine = new B.Engine(canvas, false, { preserveDrawingBuffer: true }), scene = new B.Scene(engine), clip = await Anicodec.open('/tests/conformance/heated.anic');
+          scene.useRightHandedSystem = right;
+          scene.clearColor = new B.Color4(0, 0, 0, 1);
+          new B.HemisphericLight('sky', new B.Vector3(0, 1, 0), scene).groundColor = B.Color3.White();
+          const [mesh] = clip.meshes, cpu = new AnicMesh(clip, scene), { min, max } = clip.bounds, { duration, info: { diagonal } } = clip;
+          const centre = B.Vector3.TransformCoordinates(B.Vector3.Center(B.Vector3.FromArray(min), B.Vector3.FromArray(max)), cpu.computeWorldMatrix(true));
+          const camera = new B.FreeCamera('camera', centre.add(new B.Vector3(diagonal / 3, diagonal / 3, -diagonal)), scene);
+          camera.setTarget(centre);
+          Object.assign(camera, { minZ: diagonal / 100, maxZ: diagonal * 100 });
+          const drawn = async () => {
+            await scene.whenReadyAsync();
+            for (let tries = 0; tries < 200 && (tries < 5 || scene.meshes.some((one) => one.isEnabled() && one.update?.() === false)); ++tries) {
+              scene.render();
+              await new Promise((done) => { setTimeout(done, 10); });
+            }
+            const gl = canvas.getContext('webgl2'), pixels = new Uint8Array(4 * 320 * 240);
+            scene.render();
+            gl.readPixels(0, 0, 320, 240, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+            return pixels;
+          };
+          const two = new AnicInstances(mesh, 2, scene), outcome = { fields: two.fields, field: two.showField('temperature'), shown: cpu.showField('temperature'), far: [], turned: [], hands: [] };
+          // Instance 1 at the origin beside the same frame by the CPU, with the other one out of sight.
+          two.thinInstanceSetMatrixAt(0, B.Matrix.Translation(1e3 * diagonal, 0, 0));
+          two.times.set([0, 0.5 * duration]);
+          cpu.time = two.times[1];
+          two.setEnabled(false);
+          const a = await drawn();
+          two.setEnabled(true);
+          cpu.setEnabled(false);
+          const b = await drawn();
+          two.times[1] = 0;
+          const c = await drawn();
+          two.showField();
+          const plain = await drawn(), count = (p, q) => p.reduce((sum, v, i) => sum + (Math.abs(v - q[i]) > 24), 0);
+          Object.assign(outcome, { seen: a.filter((v, i) => i % 4 < 3 && v > 8).length, different: count(a, b), moved: count(b, c), coloured: count(c, plain), back: two.getVerticesData(B.VertexBuffer.ColorKind) !== null });
+          // Points of an instance that is turned, moved and larger.
+          const place = B.Matrix.Compose(new B.Vector3(2, 2, 2), B.Quaternion.RotationAxis(new B.Vector3(1, 2, 3).normalize(), 1), new B.Vector3(3, 1, 2));
+          two.thinInstanceSetMatrixAt(1, place);
+          two.times[1] = 0.25 * duration;
+          await drawn();
+          const face = [...mesh.indices.slice(0, 3)], weights = [0.5, 0.25, 0.25], node = two.anchor({ thinInstanceIndex: 1, vertices: face, weights });
+          const corners = () => {
+            const p = mesh.positions(two.times[1]), world = place.multiply(two.computeWorldMatrix(true));
+            return face.map((v) => B.Vector3.TransformCoordinates(B.Vector3.FromArray(p, 3 * v), world));
+          };
+          for (const share of [0.25, 0.9]) {
+            two.times[1] = share * duration;
+            await drawn();
+            const [x, y, z] = corners(), world = node.computeWorldMatrix(true), at = x.scale(0.5).add(y.scale(0.25)).add(z.scale(0.25));
+            const axis = (v) => B.Vector3.TransformNormal(v, world).normalize(), normal = B.Vector3.Cross(y.subtract(x), z.subtract(x)).normalize().scale(right ? 1 : -1);
+            outcome.far.push(B.Vector3.Distance(node.getAbsolutePosition(), at) / diagonal);
+            outcome.turned.push(1 - B.Vector3.Dot(axis(B.Vector3.Up()), normal), 1 - B.Vector3.Dot(axis(B.Vector3.Right()), y.subtract(x).normalize()));
+            outcome.hands.push(world.determinant() > 0);
+          }
+          const [x, y, z] = corners(), mean = x.add(y).add(z).scale(1 / 3), out = B.Vector3.Cross(y.subtract(x), z.subtract(x)).normalize().scale(right ? diagonal : -diagonal);
+          const hit = two.pick(new B.Ray(mean.add(out), out.scale(-1 / diagonal), 10 * diagonal)), picked = two.anchor(hit);
+          picked.computeWorldMatrix(true);
+          outcome.far.push(B.Vector3.Distance(picked.getAbsolutePosition(), hit.pickedPoint) / diagonal);
+          try {
+            two.anchor({ thinInstanceIndex: 2, vertices: face, weights });
+          } catch (error) {
+            outcome.refused = error.message;
+          }
+          node.parent = null;
+          const before = node.position.clone();
+          two.times[1] = 0;
+          await drawn();
+          outcome.free = before.equals(node.position);
+          outcome.error = canvas.getContext('webgl2').getError();
+          engine.dispose();
+          clip.close();
+          outcomes.push(outcome);
+        }
+        return outcomes;
+      });
+      assert.deepEqual(messages.filter((text) => !/BJS -|Babylon\.js v|GPU stall/.test(text)), []);
+      for (const result of results) {
+        assert.ok(result.different <= 0.01 * result.seen + 20 && result.moved > 0.05 * result.seen && result.coloured > 0.2 * result.seen, JSON.stringify(result));
+        assert.ok(result.far.length === 3 && result.far.every((far) => far < 1e-3) && result.turned.every((turned) => turned < 1e-3) && result.hands.every(Boolean), JSON.stringify(result));
+        assert.deepEqual([result.fields, result.field, result.back, result.free, result.error], [['temperature'], result.shown, true, true, 0], JSON.stringify(result));
+        assert.equal(result.refused, 'there is no instance 2 of 2');
+      }
+    });
+  } finally {
+    server.close();
+  }
+});

@@ -7,14 +7,14 @@ import { existsSync, readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { Anicodec } from '../../bindings/web/index.js';
-import { bytesOf, clipWithLooks, movingGlb } from './files.mjs';
+import { bytesOf, clipWithLooks, movingGlb, sceneWithMovingTexture } from './files.mjs';
 import { CHROMIUM, launch, serve, withPage } from './serve.mjs';
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
 const installed = existsSync(here('pages/node_modules/playcanvas'));
 const skip = !CHROMIUM ? 'there is no Chromium' : installed ? false : 'there is no React or PlayCanvas: npm ci --prefix tests/web/pages';
 const WEB = here('../../bindings/web'), EXAMPLES = `${WEB}/examples`;
-const looks = clipWithLooks();
+const looks = clipWithLooks(), texture = sceneWithMovingTexture();
 let server, browser;
 
 /** One script of a module in JSX and all that it imports. */
@@ -74,12 +74,13 @@ before(async () => {
   const [app, example] = await Promise.all([
     bundle({ stdin: { contents: APP, loader: 'jsx', resolveDir: here('.') } }), bundle({ entryPoints: [`${EXAMPLES}/react/main.jsx`] }),
   ]);
-  const limb = bytesOf('limb_small.anic'), model = movingGlb(limb, await Anicodec.open(limb));
+  const limb = bytesOf('limb_small.anic'), model = movingGlb(limb, await Anicodec.open(limb)), clips = bytesOf('clips.anic');
   // Scripts lie where the package finds its worker and its modules.
   const folders = [
     ['/pages/node_modules/anicodec/', 'bindings/web/'], ['/pages/node_modules/three/', 'tests/web/node_modules/three/'], ['/pages/node_modules/', 'tests/web/pages/node_modules/'], ['/pages/', 'bindings/web/examples/pages/'],
   ];
-  server = await serve({ '/pages/model.glb': model, '/pages/dancer.anic': limb, ...(looks ? { '/looks.anic': looks } : {}),
+  server = await serve({ '/pages/model.glb': model, '/pages/dancer.anic': limb, ...(looks ? { '/looks.anic': looks } : {}), ...(texture ? { '/texture.glb': texture } : {}),
+    '/moving.glb': movingGlb(clips, await Anicodec.open(clips)),
     '/app': paged('/bindings/web/app.js'), '/bindings/web/app.js': app, '/bindings/web/main.js': example,
     '/react': readFileSync(`${EXAMPLES}/react/index.html`, 'utf8').replace('/main.jsx', '/bindings/web/main.js'), '/dancer.anic': limb }, folders);
 });
@@ -279,5 +280,61 @@ test('a script of PlayCanvas plays and fades clips, with their materials and fie
     if (looks)
       assert.deepEqual(result.looks.slice(1), [true, 0.125, 0.25, 0.75, 'wood_normal.png']);
     assert.deepEqual(messages.filter((text) => !/404|Powered by PlayCanvas/.test(text)), []);
+  }, { browser });
+});
+
+test('PlayCanvas plays scenes of glTF that move by clips', { skip }, async () => {
+  await withPage(async (page, messages) => {
+    await page.goto(`${server.url}/pages/playcanvas.html`);
+    const result = await page.evaluate(async (textured) => {
+      const pc = await import('playcanvas'), { loadAnicScene } = await import('anicodec/playcanvas'), { Anicodec } = await import('/pages/node_modules/anicodec/index.js'), app = pc.app, outcome = { steps: {} };
+      const far = (p, q) => p.reduce((most, v, i) => Math.max(most, Math.abs(v - q[i])), 0), [a, b] = ['clip of 70', 'clip of 29'];
+      // What lies on the card, of vertices with floats alone.
+      const read = ({ vertexBuffer: { format, numVertices, storage } }, semantic) => {
+        const { offset, stride, numComponents } = format.elements.find(({ name }) => name === semantic), view = new DataView(storage);
+        return Float32Array.from({ length: numVertices * numComponents }, (_, i) => view.getFloat32(offset + Math.floor(i / numComponents) * stride + 4 * (i % numComponents), true));
+      };
+      const clip = await Anicodec.open('/tests/conformance/clips.anic'), [mesh] = clip.meshes, root = await loadAnicScene('/moving.glb', app), { anicScene: scene } = root.findByName('ANIC_mesh_animation').script;
+      const [instance] = root.findComponents('render').flatMap(({ meshInstances }) => meshInstances), shown = () => read(instance.mesh, pc.SEMANTIC_POSITION);
+      app.root.addChild(root);
+      scene.playing = false;
+      scene.play(b);
+      scene.time = 0.5;
+      scene.update(0);
+      outcome.steps.set = far(shown(), mesh.sourcePositions(0.5, undefined, { clip: b }));
+      scene.playing = true;
+      scene.play(a);
+      scene.update(0.25);
+      scene.play(b, { fade: 1 });
+      scene.update(0.25);
+      outcome.steps.fading = far(shown(), mesh.sourcePositions(0.5, undefined, { clip: a, wrap: 'loop', blend: { clip: b, time: 0.25, weight: 0.25 } }));
+      scene.update(1);
+      scene.playing = false;
+      const { renderVertices, normals } = { renderVertices: new Map([...mesh.sourceVertices].map((v, r) => [v, r])), normals: mesh.normals(scene.time, undefined, { clip: b, wrap: 'loop' }) };
+      outcome.steps.normals = far(read(instance.mesh, pc.SEMANTIC_NORMAL), Float32Array.from({ length: 3 * mesh.sourceVertexCount }, (_, i) => normals[3 * renderVertices.get(Math.floor(i / 3)) + i % 3]));
+      outcome.shown = [scene.current, instance.material.name, instance.visible, instance.mesh.primitive[0].count === mesh.indices.length];
+      const point = { vertices: [0, 1, 2], weights: [0.5, 0.25, 0.25] }, entity = scene.anchor(point), { position } = mesh.surfaceFrame(point, scene.time, { clip: b, wrap: 'loop' }), { x, y, z } = entity.getLocalPosition();
+      outcome.steps.anchor = far([x, y, z], position);
+      outcome.parent = entity.parent === instance.node;
+      const inside = scene.clip;
+      root.destroy();
+      outcome.closed = inside.closed;
+      if (textured) {
+        const sheet = await loadAnicScene('/texture.glb', app), { anicScene: moved } = sheet.findByName('ANIC_mesh_animation').script, { mesh: made } = sheet.findComponent('render').meshInstances[0];
+        moved.playing = false;
+        moved.time = 0.5;
+        moved.refresh();
+        outcome.textured = [...read(made, `${pc.SEMANTIC_TEXCOORD}0`).slice(0, 4), ...read(made, pc.SEMANTIC_COLOR).slice(0, 3)];
+        sheet.destroy();
+      }
+      outcome.error = await loadAnicScene('/absent.glb', app).then(() => 'none', ({ message }) => message);
+      return outcome;
+    }, texture !== undefined);
+    assert.ok(Object.values(result.steps).every((distance) => distance < 1e-3), JSON.stringify(result));
+    assert.deepEqual([result.shown, result.parent, result.closed], [['clip of 29', 'paint', true, true], true, true], JSON.stringify(result));
+    if (texture)
+      [0.25, 0.125, 0.75, 0.125, 0.5, 0.625, 0.25].forEach((x, i) => assert.ok(Math.abs(x - result.textured[i]) < 0.01, JSON.stringify(result)));
+    assert.match(result.error, /404|absent/);
+    assert.deepEqual(messages.filter((text) => !/404|absent|Powered by PlayCanvas/.test(text)), []);
   }, { browser });
 });

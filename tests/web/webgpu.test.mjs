@@ -133,3 +133,54 @@ test('objects stay on instances that WebGPU plays', { skip: CHROMIUM ? false : '
     return t.skip('this Chromium has no WebGPU');
   assert.ok(result.far < 1e-5 && result.moved && result.parent, JSON.stringify(result));
 });
+
+test('instances of WebGPU show fields as meshes do', { skip: CHROMIUM ? false : 'there is no Chromium' }, async (t) => {
+  const result = await withPage(async (page, messages) => {
+    await page.goto(`${server.url}/page`);
+    if (!await page.evaluate(async () => !!await navigator.gpu?.requestAdapter()))
+      return undefined;
+    const outcome = await page.evaluate(async () => {
+      const GPU = await import('three/webgpu'), { Anicodec } = await import('anicodec'), { AnicMesh } = await import('anicodec/three'), { AnicInstances } = await import('anicodec/three/webgpu');
+      const clip = await Anicodec.open('/tests/conformance/heated.anic'), [mesh] = clip.meshes, renderer = new GPU.WebGPURenderer(), target = new GPU.RenderTarget(320, 240);
+      renderer.setSize(320, 240);
+      await renderer.init();
+      const cpu = new AnicMesh(clip), many = new AnicInstances(mesh, 3), scene = new GPU.Scene(), light = new GPU.DirectionalLight(0xffffff, 3), { center, radius } = many.geometry.boundingSphere;
+      const camera = new GPU.PerspectiveCamera(40, 4 / 3, radius / 10, radius * 10), away = new GPU.Matrix4().makeTranslation(0, 100 * radius, 0);
+      cpu.rotation.set(0, 0, 0);
+      light.position.set(1, 2, 3);
+      camera.position.copy(center).add(new GPU.Vector3(radius, radius, 3 * radius));
+      camera.lookAt(center);
+      scene.add(light, cpu, many);
+      [0, 2].forEach((i) => many.setMatrixAt(i, away));
+      const picture = async (shown, hidden) => {
+        shown.visible = true;
+        hidden.visible = false;
+        many.update(renderer);
+        renderer.setRenderTarget(target);
+        renderer.render(scene, camera);
+        const pixels = await renderer.readRenderTargetPixelsAsync(target, 0, 0, 320, 240);
+        renderer.setRenderTarget(null);
+        return pixels;
+      };
+      const differing = (p, q) => p.reduce((sum, x, k) => sum + (Math.abs(x - q[k]) > 24), 0), shares = [], plain = await picture(many, cpu);
+      for (const share of [0.2, 0.8]) {
+        const field = many.showField('temperature', { low: 0, high: 100 });
+        many.times.set([0.5, share, 0.1].map((part) => part * clip.duration));
+        cpu.showField('temperature', field);
+        cpu.time = many.times[1];
+        const ours = await picture(many, cpu), theirs = await picture(cpu, many);
+        shares.push([differing(ours, theirs), theirs.reduce((sum, x, k) => sum + (k % 4 === 1 && x > 8), 0), differing(ours, plain)]);
+      }
+      many.showField();
+      many.times.fill(0);
+      return { shares, fields: many.fields, back: differing(await picture(many, cpu), plain) };
+    });
+    assert.deepEqual(messages, []);
+    return outcome;
+  }, { webgpu: true });
+  if (!result)
+    return t.skip('this Chromium has no WebGPU');
+  for (const [different, lit, changed] of result.shares)
+    assert.ok(different <= 0.01 * lit + 20 && changed > 0.2 * lit, JSON.stringify(result));
+  assert.deepEqual([result.fields, result.back], [['temperature'], 0], JSON.stringify(result));
+});
