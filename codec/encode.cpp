@@ -238,6 +238,7 @@ EncodeResult encode_meshes(Scene scene, const EncodeOptions& options, const Prog
     for (size_t r = 0; r < runs.size(); ++r) {
       all.add(runs[r], m, present_in[r]);
       runs[r].result = {};
+      of_mesh.metadata.clear();  // the file has that of its first mesh
       placed.push_back({nullptr, {}, m, present_in[r].first});
       encoded.push_back(std::move(runs[r]));
     }

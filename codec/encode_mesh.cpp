@@ -217,6 +217,17 @@ void promise(const MeshPlan& plan, const EncoderInput& input,
   }
 }
 
+/// A layout without what no file needs: a scene keeps those of all its meshes.
+MeshLayout of_file(MeshLayout layout) {
+  layout.topology = {};
+  layout.coded_source = {};
+  layout.source_coded = {};
+  layout.vertex_source = {};
+  layout.polygon_source = {};
+  layout.polygon_first = {};
+  return layout;
+}
+
 EncodedMesh encode_within(MeshSequence sequence, const MeshPlan& plan, const Progress& progress,
                           std::shared_ptr<MemoryBudget> memory) {
   EncodedMesh mesh;
@@ -258,7 +269,7 @@ EncodedMesh encode_within(MeshSequence sequence, const MeshPlan& plan, const Pro
     mesh.segments.push_back(*segment);
     mesh.segments.back().bounds = checked.bounds[mesh.segments.size() - 1];
   }
-  mesh.layout = std::move(input.layout);
+  mesh.layout = of_file(std::move(input.layout));
   return mesh;
 }
 

@@ -19,7 +19,7 @@ namespace anicodec {
 /// A mesh ready for a file, by itself or with others.
 struct EncodedMesh {
   EncodeResult result;  ///< without the file
-  MeshLayout layout;
+  MeshLayout layout;  ///< as far as files need it: without topology and the ways back to the source
   ClipsRecord record;                    ///< of its own file, with the errors measured
   std::vector<EncodedSegment> segments;  ///< in the order of a file
 

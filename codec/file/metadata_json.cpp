@@ -5,6 +5,9 @@
 #include "codec/sequence/error.h"
 #include "format/metadata.h"
 
+#include <map>
+#include <string_view>
+
 #include <nlohmann/json.hpp>
 
 namespace anicodec {
@@ -30,22 +33,25 @@ std::string with_fields(const std::string& json, const std::vector<const Attribu
     return a.bound && a.bound->measure == AttributeBound::Measure::kExact;
   };
   nlohmann::ordered_json fields = nlohmann::ordered_json::object();
+  std::map<std::string_view, const Attribute*> firsts;  // by name
   for (const Attribute* a : attributes) {
-    if (a->unit.empty() && !is_whole(*a))
-      continue;
-    if (a->name.empty())
+    const bool says_something = !a->unit.empty() || is_whole(*a);
+    if (says_something && a->name.empty())
       throw Error(ErrorKind::kUsage,
                   "an attribute without a name has neither a unit nor exact values");
-    for (const Attribute* other : attributes) {
-      if (other->name == a->name && (other->unit != a->unit || is_whole(*other) != is_whole(*a)))
-        throw Error(ErrorKind::kUsage,
-                    "attributes " + a->name + " differ in their units, or not all are exact");
-    }
-    nlohmann::ordered_json& field = fields[a->name] = nlohmann::ordered_json::object();
+    const auto [first, is_new] = firsts.try_emplace(a->name, a);
+    if (first->second->unit != a->unit || is_whole(*first->second) != is_whole(*a))
+      throw Error(ErrorKind::kUsage,
+                  "attributes " + a->name + " differ in their units, or not all are exact");
+    if (!says_something || !is_new)
+      continue;
+    nlohmann::ordered_json field = nlohmann::ordered_json::object();
     if (!a->unit.empty())
       field["unit"] = a->unit;
     if (is_whole(*a))
       field["whole"] = true;
+    // Names are new, and a search among all before them would take a square of their number.
+    fields.get_ref<nlohmann::ordered_json::object_t&>().emplace_back(a->name, std::move(field));
   }
   if (fields.empty())
     return json;
@@ -56,7 +62,10 @@ std::string with_fields(const std::string& json, const std::vector<const Attribu
   nlohmann::ordered_json& all = metadata["fields"];
   if (!all.is_null() && !all.is_object())
     throw Error(ErrorKind::kUsage, "\"fields\" of the metadata is no object");
-  all.update(fields);
+  if (all.empty())
+    all = std::move(fields);
+  else
+    all.update(fields);
   return metadata.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

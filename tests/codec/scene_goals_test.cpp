@@ -5,6 +5,7 @@
 #include "codec/encode.h"
 #include "codec/sequence/error.h"
 #include "codec/sequence/scene.h"
+#include "format/container.h"
 #include "sdk/clip/sample.h"
 #include "tests/two_boxes.h"
 
@@ -51,6 +52,18 @@ TEST(SceneGoals, KeepsTheErrorOfTheWholeAndTheRunsOfEach) {
     }
   }
   EXPECT_LE(worst, result.max_error * 1.0001);
+}
+
+TEST(SceneGoals, KeepsTheMetadataOnce) {
+  EncodeOptions options;
+  options.target = {ErrorMetric::kMaxError, 1, true};
+  options.metadata = R"({"author":"A"})";
+  const EncodeResult result = encode(split_parts(two_boxes()), options);
+  ContainerReader reader;
+  ASSERT_TRUE(reader.open(result.file).ok());
+  ByteView text;
+  ASSERT_TRUE(reader.payload(*reader.find("META"), &text).ok());
+  EXPECT_EQ(std::string(text.data, text.data + text.size), options.metadata);
 }
 
 TEST(SceneGoals, NamesTheMeshThatFails) {

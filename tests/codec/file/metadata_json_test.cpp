@@ -40,6 +40,20 @@ TEST(MetadataJson, RefuseFieldsThatContradict) {
   EXPECT_THROW(with_fields(R"({"fields":3})", {&kelvin}), Error);
 }
 
+TEST(MetadataJson, TakesTimeInProportionToTheFields) {
+  std::vector<Attribute> attributes;
+  for (int i = 0; i < 200000; ++i)
+    attributes.push_back(named(std::to_string(i), "K"));
+  std::vector<const Attribute*> all;
+  for (int twice = 0; twice < 2; ++twice) {
+    for (const Attribute& attribute : attributes)
+      all.push_back(&attribute);
+  }
+  const std::string text = with_fields("", all);  // each with each would take minutes
+  EXPECT_EQ(text.find(R"({"fields":{"0":{"unit":"K"},"1":{"unit":"K"},)"), 0U);
+  EXPECT_EQ(text.find(R"("199999":{"unit":"K"}}})"), text.size() - 23);
+}
+
 TEST(MetadataJson, IsCheckedAndShortened) {
   const String text = checked_metadata(R"( { "a" : 1 } )");
   EXPECT_EQ(std::string(text.begin(), text.end()), R"({"a":1})");
