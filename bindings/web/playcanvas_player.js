@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What plays clips in PlayCanvas, whatever shows them.
+// Playing of clips in PlayCanvas, whatever shows them.
 import { BoundingBox, Entity, Mat4, Quat, Script, Vec3 } from 'playcanvas';
 import { sampleOf } from './moments.js';
 

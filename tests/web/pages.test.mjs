@@ -289,7 +289,7 @@ test('PlayCanvas plays scenes of glTF that move by clips', { skip }, async () =>
     const result = await page.evaluate(async (textured) => {
       const pc = await import('playcanvas'), { loadAnicScene } = await import('anicodec/playcanvas'), { Anicodec } = await import('/pages/node_modules/anicodec/index.js'), app = pc.app, outcome = { steps: {} };
       const far = (p, q) => p.reduce((most, v, i) => Math.max(most, Math.abs(v - q[i])), 0), [a, b] = ['clip of 70', 'clip of 29'];
-      // What lies on the card, of vertices with floats alone.
+      // The data on the card, of vertices with floats alone.
       const read = ({ vertexBuffer: { format, numVertices, storage } }, semantic) => {
         const { offset, stride, numComponents } = format.elements.find(({ name }) => name === semantic), view = new DataView(storage);
         return Float32Array.from({ length: numVertices * numComponents }, (_, i) => view.getFloat32(offset + Math.floor(i / numComponents) * stride + 4 * (i % numComponents), true));
