@@ -79,20 +79,6 @@ inline std::string rewritten(
   return bytes;
 }
 
-/// A clip as a scene of one mesh.
-inline Scene scene_of(MeshSequence clip) {
-  Scene scene;
-  scene.clip.name = clip.name;
-  scene.clip.frame_count = clip.frame_count;
-  scene.clip.rate = clip.rate;
-  scene.clip.start_time = clip.start_time;
-  scene.clip.times = clip.times;
-  scene.clip.up = clip.up;
-  const FrameRun all{0, clip.frame_count};
-  scene.meshes.push_back({std::move(clip), {all}});
-  return scene;
-}
-
 /// Changes the bytes of a sample that is copied.
 using ChangeSample = std::function<void(const AbcProperty& property, std::string& bytes)>;
 
