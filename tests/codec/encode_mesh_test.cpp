@@ -22,8 +22,8 @@ EncodeOptions coarse() {
   return options;
 }
 
-EncodedMesh encoded(const MeshSequence& clip) {
-  return encode_mesh(clip, plan_mesh(clip, coarse()), {});
+EncodedMesh encoded(const MeshSequence& clip, const EncodeOptions& options = coarse()) {
+  return encode_mesh(clip, plan_mesh(clip, options), {});
 }
 
 TEST(EncodeMesh, ByItselfMakesTheFileOfEncode) {
@@ -50,7 +50,9 @@ MeshSequence small_and_large() {
 
 TEST(EncodeMesh, EverySegmentOfPositionsHasItsBoxes) {
   const MeshSequence clip = small_and_large();
-  const EncodedMesh mesh = encoded(clip);
+  EncodeOptions options = coarse();
+  options.target = {ErrorMetric::kKg, 0.05, false};
+  const EncodedMesh mesh = encoded(clip, options);
   size_t of_positions = 0, of_attributes = 0;
   for (const EncodedSegment& segment : mesh.segments) {
     if (segment.sizes.attribute != kPositions) {
