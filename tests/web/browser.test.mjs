@@ -460,116 +460,120 @@ test('the viewer shows all of a clip beside its panels, on a phone too', { skip:
 
 test('the graphics card plays instances as the CPU does', { skip }, async (t) => {
   let byCard = 0;
-  for (const { file } of files.filter(({ what }) => what === 'valid')) {
-    const result = await inPage(async (name) => {
-      const THREE = await import('three');
-      const { Anicodec } = await import('anicodec');
-      const { AnicInstances, AnicMesh } = await import('anicodec/three');
-      const clip = await Anicodec.open(`/tests/conformance/${name}`, { inexact: true }).catch((error) => {
-        if (!error.message.includes('feature 1 '))
-          throw error;
-      });
-      if (!clip || clip.meshes.length > 1 || clip.meshes[0].triangleCount === 0)
-        return undefined;
-      const [mesh] = clip.meshes, renderer = new THREE.WebGLRenderer();
-      renderer.setSize(320, 240);
-      const instances = new AnicInstances(mesh, 5, new THREE.MeshStandardMaterial({ side: THREE.DoubleSide })), { duration } = clip;
-      instances.times.set([0, 0.37, 0.5, 0.9, 1].map((share) => share * duration));
-      instances.update(renderer);
-      const byCpu = instances.madeByCpu;
-      let far = 0, turned = 0, cancelled = 0, size = 0;
-      // Vertices whose areas all but cancel have no normal to speak of: rounding decides it.
-      const area = ([a, b, c]) => {
-        const [x, y] = [b, c].map((p) => p.map((value, axis) => value - a[axis]));
-        return [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
-      };
-      // Far from the origin, the area of a sliver is rounding alone.
-      const rounding = ([a, ...others]) =>
-        2 ** -16 * Math.max(...a.map(Math.abs)) * Math.max(...others.map((p) => Math.hypot(...p.map((value, axis) => value - a[axis]))));
-      const cancel = (triangles) => {
-        const areas = triangles.map(area), sum = [0, 1, 2].map((axis) => areas.reduce((all, value) => all + value[axis], 0));
-        const parts = areas.reduce((all, value) => all + Math.hypot(...value), 0);
-        return Math.hypot(...sum) <= Math.max(1e-3 * parts, ...triangles.map(rounding));
-      };
-      const { normalElements, normalCorners } = mesh.normalPlan, at = (positions, v) => [...positions.subarray(3 * v, 3 * v + 3)];
-      const cancels = (source, rendered, v) => {
-        const [, centre, first, count] = normalElements.subarray(4 * v, 4 * v + 4);
-        const corners = Array.from({ length: count }, (_, c) => [centre, ...normalCorners.subarray(4 * (first + c), 4 * (first + c) + 2)]);
-        return cancel(corners.map((t) => t.map((c) => at(source, c)))) || cancel((fans.get(v) ?? []).map((t) => t.map((c) => at(rendered, c))));
-      };
-      const fans = new Map();
-      for (let k = 0; k < mesh.indices.length; k += 3) {
-        const corners = [...mesh.indices.subarray(k, k + 3)];
-        for (const v of new Set(corners))
-          fans.set(v, [...(fans.get(v) ?? []), corners]);
-      }
-      instances.times.forEach((time, i) => {
-        const p = mesh.sourcePositions(time), q = instances.read(renderer, i), n = mesh.normals(time), m = instances.read(renderer, i, 'normals');
-        const rendered = mesh.positions(time);
-        p.forEach((x, k) => { far = Math.max(far, Math.abs(x - q[k])); size = Math.max(size, Math.abs(x)); });
-        for (let k = 0; k < n.length; k += 3)
-          if (Math.acos(Math.min(Math.max(n[k] * m[k] + n[k + 1] * m[k + 1] + n[k + 2] * m[k + 2], -1), 1)) > 0.05)
-            cancels(p, rendered, k / 3) ? ++cancelled : ++turned;
-      });
-      // One instance beside the same frame by the CPU.
-      const scene = new THREE.Scene(), light = new THREE.DirectionalLight(0xffffff, 3), cpu = new AnicMesh(clip, new THREE.MeshStandardMaterial({ side: THREE.DoubleSide }));
-      cpu.rotation.set(0, 0, 0);
-      light.position.set(1, 2, 3);
-      const one = new AnicInstances(mesh, 1, new THREE.MeshStandardMaterial({ side: THREE.DoubleSide }));
-      scene.add(light, cpu, one);
-      const { center, radius } = one.geometry.boundingSphere, camera = new THREE.PerspectiveCamera(40, 4 / 3, radius / 10, radius * 10);
-      camera.position.copy(center).add(new THREE.Vector3(radius, radius, 3 * radius));
-      camera.lookAt(center);
-      cpu.time = one.times[0] = 0.5 * duration;
-      const shot = (shown, hidden) => {
-        shown.visible = true;
-        hidden.visible = false;
-        one.update(renderer);
-        renderer.render(scene, camera);
-        const gl = renderer.getContext(), pixels = new Uint8Array(4 * 320 * 240);
-        gl.readPixels(0, 0, 320, 240, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
-        return pixels;
-      };
-      const a = shot(cpu, one), b = shot(one, cpu);
-      let different = 0, lit = 0;
-      for (let k = 0; k < a.length; k += 4) {
-        lit += a[k] > 8;
-        different += Math.abs(a[k] - b[k]) > 24;
-      }
-      const ray = new THREE.Raycaster(camera.position, center.clone().sub(camera.position).normalize()), hits = ray.intersectObject(one).length;
-      cpu.visible = true;
-      const cpuHits = ray.intersectObject(cpu, true).length;
-      // Many at once: one call, and little time of the script.
-      const many = new AnicInstances(mesh, 200), scene2 = new THREE.Scene();
-      scene2.add(many);
-      const run = () => {
-        for (let i = 0; i < 200; ++i)
-          many.times[i] = (i * 0.37 % 1) * duration;
-        const before = performance.now();
-        many.update(renderer);
-        return (performance.now() - before) / 200;
-      };
-      run();
-      const ms = run();
-      many.frustumCulled = false;
-      renderer.render(scene2, camera);
-      const { calls } = renderer.info.render;
-      for (const object of [instances, one, many, cpu])
-        object.dispose();
-      return { byCpu, far, turned, cancelled, diagonal: clip.info.diagonal, size, different, lit, hits, cpuHits, calls, ms, vertices: mesh.vertexCount, error: renderer.getContext().getError() };
-    }, file);
-    if (!result)
-      continue;  // coded by Draco, several meshes, or points
-    t.diagnostic(`${file}: ${JSON.stringify(result)}`);
-    byCard += 5 - result.byCpu;
-    assert.ok(result.far <= 1e-4 * result.diagonal + 2e-6 * result.size, JSON.stringify(result));
-    assert.ok(result.turned <= 0.02 * 5 * result.vertices, JSON.stringify(result));
-    if (result.cancelled === 0)  // else rounding shades whole triangles
-      assert.ok(result.different <= 0.01 * result.lit + 20, JSON.stringify(result));
-    assert.equal(result.hits, result.cpuHits);
-    assert.equal(result.calls, 1);
-    assert.equal(result.error, 0);
-  }
+  await withPage(async (page, messages) => {
+    await page.goto(`${server.url}/page`);
+    for (const { file } of files.filter(({ what }) => what === 'valid')) {
+      const result = await page.evaluate(async (name) => {
+        const THREE = await import('three');
+        const { Anicodec } = await import('anicodec');
+        const { AnicInstances, AnicMesh } = await import('anicodec/three');
+        const clip = await Anicodec.open(`/tests/conformance/${name}`, { inexact: true }).catch((error) => {
+          if (!error.message.includes('feature 1 '))
+            throw error;
+        });
+        if (!clip || clip.meshes.length > 1 || clip.meshes[0].triangleCount === 0)
+          return undefined;
+        const [mesh] = clip.meshes, renderer = globalThis.renderer ??= new THREE.WebGLRenderer();
+        renderer.setSize(320, 240);
+        const instances = new AnicInstances(mesh, 5, new THREE.MeshStandardMaterial({ side: THREE.DoubleSide })), { duration } = clip;
+        instances.times.set([0, 0.37, 0.5, 0.9, 1].map((share) => share * duration));
+        instances.update(renderer);
+        const byCpu = instances.madeByCpu;
+        let far = 0, turned = 0, cancelled = 0, size = 0;
+        // Vertices whose areas all but cancel have no normal to speak of: rounding decides it.
+        const area = ([a, b, c]) => {
+          const [x, y] = [b, c].map((p) => p.map((value, axis) => value - a[axis]));
+          return [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
+        };
+        // Far from the origin, the area of a sliver is rounding alone.
+        const rounding = ([a, ...others]) =>
+          2 ** -16 * Math.max(...a.map(Math.abs)) * Math.max(...others.map((p) => Math.hypot(...p.map((value, axis) => value - a[axis]))));
+        const cancel = (triangles) => {
+          const areas = triangles.map(area), sum = [0, 1, 2].map((axis) => areas.reduce((all, value) => all + value[axis], 0));
+          const parts = areas.reduce((all, value) => all + Math.hypot(...value), 0);
+          return Math.hypot(...sum) <= Math.max(1e-3 * parts, ...triangles.map(rounding));
+        };
+        const { normalElements, normalCorners } = mesh.normalPlan, at = (positions, v) => [...positions.subarray(3 * v, 3 * v + 3)];
+        const cancels = (source, rendered, v) => {
+          const [, centre, first, count] = normalElements.subarray(4 * v, 4 * v + 4);
+          const corners = Array.from({ length: count }, (_, c) => [centre, ...normalCorners.subarray(4 * (first + c), 4 * (first + c) + 2)]);
+          return cancel(corners.map((t) => t.map((c) => at(source, c)))) || cancel((fans.get(v) ?? []).map((t) => t.map((c) => at(rendered, c))));
+        };
+        const fans = new Map();
+        for (let k = 0; k < mesh.indices.length; k += 3) {
+          const corners = [...mesh.indices.subarray(k, k + 3)];
+          for (const v of new Set(corners))
+            fans.set(v, [...(fans.get(v) ?? []), corners]);
+        }
+        instances.times.forEach((time, i) => {
+          const p = mesh.sourcePositions(time), q = instances.read(renderer, i), n = mesh.normals(time), m = instances.read(renderer, i, 'normals');
+          const rendered = mesh.positions(time);
+          p.forEach((x, k) => { far = Math.max(far, Math.abs(x - q[k])); size = Math.max(size, Math.abs(x)); });
+          for (let k = 0; k < n.length; k += 3)
+            if (Math.acos(Math.min(Math.max(n[k] * m[k] + n[k + 1] * m[k + 1] + n[k + 2] * m[k + 2], -1), 1)) > 0.05)
+              cancels(p, rendered, k / 3) ? ++cancelled : ++turned;
+        });
+        // One instance beside the same frame by the CPU.
+        const scene = new THREE.Scene(), light = new THREE.DirectionalLight(0xffffff, 3), cpu = new AnicMesh(clip, new THREE.MeshStandardMaterial({ side: THREE.DoubleSide }));
+        cpu.rotation.set(0, 0, 0);
+        light.position.set(1, 2, 3);
+        const one = new AnicInstances(mesh, 1, new THREE.MeshStandardMaterial({ side: THREE.DoubleSide }));
+        scene.add(light, cpu, one);
+        const { center, radius } = one.geometry.boundingSphere, camera = new THREE.PerspectiveCamera(40, 4 / 3, radius / 10, radius * 10);
+        camera.position.copy(center).add(new THREE.Vector3(radius, radius, 3 * radius));
+        camera.lookAt(center);
+        cpu.time = one.times[0] = 0.5 * duration;
+        const shot = (shown, hidden) => {
+          shown.visible = true;
+          hidden.visible = false;
+          one.update(renderer);
+          renderer.render(scene, camera);
+          const gl = renderer.getContext(), pixels = new Uint8Array(4 * 320 * 240);
+          gl.readPixels(0, 0, 320, 240, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+          return pixels;
+        };
+        const a = shot(cpu, one), b = shot(one, cpu);
+        let different = 0, lit = 0;
+        for (let k = 0; k < a.length; k += 4) {
+          lit += a[k] > 8;
+          different += Math.abs(a[k] - b[k]) > 24;
+        }
+        const ray = new THREE.Raycaster(camera.position, center.clone().sub(camera.position).normalize()), hits = ray.intersectObject(one).length;
+        cpu.visible = true;
+        const cpuHits = ray.intersectObject(cpu, true).length;
+        // Many at once: one call, and little time of the script.
+        const many = new AnicInstances(mesh, 40), scene2 = new THREE.Scene();
+        scene2.add(many);
+        const run = () => {
+          for (let i = 0; i < 40; ++i)
+            many.times[i] = (i * 0.37 % 1) * duration;
+          const before = performance.now();
+          many.update(renderer);
+          return (performance.now() - before) / 40;
+        };
+        run();
+        const ms = run();
+        many.frustumCulled = false;
+        renderer.render(scene2, camera);
+        const { calls } = renderer.info.render;
+        for (const object of [instances, one, many, cpu])
+          object.dispose();
+        return { byCpu, far, turned, cancelled, diagonal: clip.info.diagonal, size, different, lit, hits, cpuHits, calls, ms, vertices: mesh.vertexCount, error: renderer.getContext().getError() };
+      }, file);
+      assert.deepEqual(messages, []);
+      if (!result)
+        continue;  // coded by Draco, several meshes, or points
+      t.diagnostic(`${file}: ${JSON.stringify(result)}`);
+      byCard += 5 - result.byCpu;
+      assert.ok(result.far <= 1e-4 * result.diagonal + 2e-6 * result.size, JSON.stringify(result));
+      assert.ok(result.turned <= 0.02 * 5 * result.vertices, JSON.stringify(result));
+      if (result.cancelled === 0)  // else rounding shades whole triangles
+        assert.ok(result.different <= 0.01 * result.lit + 20, JSON.stringify(result));
+      assert.equal(result.hits, result.cpuHits);
+      assert.equal(result.calls, 1);
+      assert.equal(result.error, 0);
+    }
+  }, { browser });
   assert.ok(byCard >= 5);
 });
 
