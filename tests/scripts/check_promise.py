@@ -8,7 +8,7 @@ Combination i of seed S is the one of seed S + i, so that `--clips 1 --seed K` r
 file by `encode`, as several clips, by `add`, by `join` of parts, or by `encode --live`. Checked are: every target asked for
 against the frames that come back, what the file says it measured, bits of `--lossless`, texture coordinates, how far
 Mesh Massage moves the surface, and `anicodec verify`. Refusals of the encoder are counted with their reasons. Exit
-status 1 if a promise is broken, or something ends by a signal.
+status 1 if a promise is broken, something ends by a signal, or a sanitizer that ANICODEC is built with reports.
 """
 import argparse
 import array
@@ -17,6 +17,7 @@ import concurrent.futures
 import json
 import pathlib
 import random
+import re
 import subprocess
 import sys
 import tempfile
@@ -32,6 +33,8 @@ ROUNDING = 1e-5  # of the error, or of float32 at the largest coordinate: what t
 QUALITIES = {"good": 0.05, "better": 0.02, "best": 0.01}
 #: The --max-error of a command without a target.
 USUAL = "0.05%"
+#: In reports of sanitizers, whose exit status is that of a refusal.
+SANITIZER = re.compile("Sanitizer|runtime error:")
 
 
 class Refused(Exception):
@@ -79,7 +82,7 @@ class Combination:
         result = subprocess.run([str(w) for w in (self.command, *words)], capture_output=True, input=data, timeout=600,
                                 check=False)
         text = result.stderr.decode(errors="replace").strip()
-        if result.returncode < 0 or result.returncode == 5:
+        if result.returncode < 0 or result.returncode == 5 or SANITIZER.search(text):
             raise RuntimeError(f"{' '.join(map(str, words))}: status {result.returncode}: {text}")
         if result.returncode != 0 and words[0] in ("encode", "add", "join"):
             raise Refused(text.rsplit(": ", 1)[-1])
