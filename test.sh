@@ -47,19 +47,43 @@ install_web_packages() {
   done
 }
 
-if command -v npm >/dev/null && $packages_wanted; then
+# What python.Wheel installs, for that test to install without a network, and headers that it compiles.
+bring_python_packages() {
+  [[ -d build/python_packages ]] ||
+    timeout 300 python3 -m pip download --quiet --disable-pip-version-check --no-deps --require-hashes --only-binary :all: \
+      -r tests/python/requirements.lock -d build/python_packages || say "No packages of PyPI: tests of the Python package bring them"
+  local release
+  for release in $(sed -n 's/^set(releases \(.*\))$/\1/p' bindings/usd/CMakeLists.txt); do
+    python3 bindings/usd/headers.py "$release" "build/third_party/usd-headers/${release/./_}" ||
+      say "No headers of OpenUSD $release: tests of the Python package bring them"
+  done
+}
+
+# Beside the build, which wants no network.
+logs=()
+if $packages_wanted; then
   mkdir -p build
-  install_web_packages >build/web_packages.log 2>&1 &
+  bring_python_packages >build/python_packages.log 2>&1 &
+  logs+=(build/python_packages.log)
+  if command -v npm >/dev/null; then
+    install_web_packages >build/web_packages.log 2>&1 &
+    logs+=(build/web_packages.log)
+  fi
 fi
 build test
 wait
-if [[ -f build/web_packages.log ]]; then
-  cat build/web_packages.log
-  rm build/web_packages.log
-fi
+for log in "${logs[@]}"; do
+  cat "$log"
+  rm "$log"
+done
 if command -v emcc >/dev/null && [[ -d bindings/web/node_modules/zstd-napi ]]; then
+  # Side by side, as both end by linking on one processor.
+  build wasm-scalar >build/wasm_scalar.log 2>&1 &
+  scalar=$!
   build wasm
-  build wasm-scalar
+  wait "$scalar" || { cat build/wasm_scalar.log; exit 1; }
+  cat build/wasm_scalar.log
+  rm build/wasm_scalar.log
 fi
 say "Running the tests"
 # One more than there are processors: browsers, Blender and killed runs wait more than they work.

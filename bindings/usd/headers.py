@@ -4,8 +4,8 @@
 """Brings the C++ headers of a release of OpenUSD: headers.py RELEASE FOLDER, as headers.py 26.8 build/usd_headers/26_8.
 
 They are in the packages pxr-*-dev of PyPI, which pip brings and whose hashes headers.lock has. A release without such packages
-takes those of 26.8 with what differs changed: the version in the namespace, and the type GfDuration, which 26.11 put into the
-list by which Vt numbers types. To add a release, see README.md.
+takes those of 26.8 (of the folder 26_8 beside its own, where there is one) with what differs changed: the version in the
+namespace, and the type GfDuration, which 26.11 put into the list by which Vt numbers types. To add a release, see README.md.
 """
 import os
 import pathlib
@@ -74,8 +74,11 @@ def main():
     to.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=to.parent) as name:
         work = pathlib.Path(name)
-        wheels = bring(work)
-        unpack(wheels, work / "include")
+        source = to.with_name(SOURCES[release].replace(".", "_"))
+        if source != to and source.is_dir():  # brought already
+            shutil.copytree(source, work / "include")
+        else:
+            unpack(bring(work), work / "include")
         if SOURCES[release] != release:
             adapt(work / "include", release, SOURCES[release])
         try:
