@@ -139,7 +139,7 @@ test('a component of React plays a clip as its props say', { skip }, async () =>
       await next();
       steps.follows = far(pinned(), frame(0.5));
       show({ src: '/tests/conformance/heated.anic', point: undefined, clip: undefined, field: 'temperature', low: 0, high: 100 });
-      for (let tries = 0; tries < 100 && [mesh, null].includes(globalThis.mesh); ++tries)
+      for (let tries = 0; tries < 1000 && [mesh, null].includes(globalThis.mesh); ++tries)
         await wait(20);
       await next();
       const heated = globalThis.mesh, { color } = heated.parts[0].geometry.attributes;
@@ -152,13 +152,13 @@ test('a component of React plays a clip as its props say', { skip }, async () =>
       outcome.open = [heated.clip.closed, other.clip.closed];
       show({ scene: '/pages/model.glb' });
       const moment = () => globalThis.scene?.getObjectByName('ANIC_mesh_animation').time ?? 0;
-      for (let tries = 0; tries < 100 && moment() === 0; ++tries) {
+      for (let tries = 0; tries < 1000 && moment() === 0; ++tries) {
         await wait(20);
         show({});
       }
       outcome.scene = moment() > 0;
       show({ shown: true, src: '/tests/conformance/absent.anic' });
-      for (let tries = 0; tries < 100 && !globalThis.problem; ++tries)
+      for (let tries = 0; tries < 1000 && !globalThis.problem; ++tries)
         await wait(20);
       outcome.problem = globalThis.problem;
       return outcome;

@@ -40,6 +40,7 @@ export async function launch({ webgpu = false } = {}) {
 export async function withPage(body, { browser, webgpu = false, ...options } = {}) {
   const used = browser ?? await launch({ webgpu });
   const context = await used.newContext({ viewport: { width: 320, height: 240 }, ...options }), messages = [];
+  context.setDefaultTimeout(120_000);  // of processors that do other things, too
   try {
     const page = await context.newPage();
     page.on('console', (message) => messages.push(`${message.type()}: ${message.text()}`));
