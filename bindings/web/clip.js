@@ -123,23 +123,21 @@ export class Clip {
   }
 
   /** Chooses what the following calls show. */
-  seek(time, { clip, sampling = 'linear', wrap, blend = [] } = {}) {
-    const decoder = this.decoder;
-    const moments = [{ clip, time, sampling, wrap }, ...[blend].flat()].map((moment) => {
-      const found = this.find(moment.clip);
-      return [found.index, Number(moment.time), number(SAMPLING, moment.sampling ?? sampling, 'sampling'),
-        number(WRAP, moment.wrap ?? wrap ?? (found.loop ? 'loop' : 'clamp'), 'wrap'), Number(moment.weight ?? 1)];
-    });
-    const key = moments.join();
-    if (this.#seeked === key)
+  seek(time, { clip, sampling = 'linear', wrap, blend } = {}) {
+    const decoder = this.decoder, numbersOf = (one) => {
+      const found = this.find(one.clip);
+      return [found.index, Number(one.time), number(SAMPLING, one.sampling ?? sampling, 'sampling'),
+        number(WRAP, one.wrap ?? wrap ?? (found.loop ? 'loop' : 'clamp'), 'wrap'), Number(one.weight ?? 1)];
+    };
+    const moments = [numbersOf({ clip, time }), ...(blend ? [blend].flat().map(numbersOf) : [])], [[index, at, how, around], ...others] = moments;
+    if (this.#seeked?.length === moments.length && moments.every((moment, i) => moment.every((one, k) => one === this.#seeked[i][k])))
       return this.#context;
     this.#seeked = undefined;
-    const [index, ...first] = moments[0];
     decoder.call('set_clip', this.#context, index);
-    decoder.call('seek_time', this.#context, ...first.slice(0, 3));
-    for (const moment of moments.slice(1))
+    decoder.call('seek_time', this.#context, at, how, around);
+    for (const moment of others)
       decoder.call('blend', this.#context, ...moment);
-    this.#seeked = key;
+    this.#seeked = moments;
     return this.#context;
   }
 

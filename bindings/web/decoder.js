@@ -38,10 +38,10 @@ export class Decoder {
     };
     const instance = await WebAssembly.instantiate(module, imports);
     decoder.module = module;
-    decoder.wasm = instance.exports;
+    decoder.wasm = Object.fromEntries(Object.entries(instance.exports).map(([name, one]) => [name.replace(/^web_/, ''), one]));
     decoder.memory = instance.exports.memory;
     decoder.wasm._initialize();
-    decoder.resultAt = decoder.wasm.web_result();
+    decoder.resultAt = decoder.wasm.result();
     return decoder;
   }
 
@@ -65,11 +65,11 @@ export class Decoder {
     if (!this.wasm)
       throw new AnicError('ANIC_E_STATE', 'the clip is closed');
     try {
-      return this.wasm[`web_${name}`](...values);
+      return this.wasm[name](...values);
     } catch (error) {
       if (!(error instanceof WebAssembly.RuntimeError) && !(error instanceof RangeError))
         throw error;
-      const memory = this.wasm.web_is_without_memory();
+      const memory = this.wasm.is_without_memory();
       this.close();
       throw memory ? new AnicError('ANIC_E_MEMORY', 'the browser gives no more memory')
         : new AnicError('ANIC_E_INTERNAL', `the decoder stopped: ${error.message}`);
@@ -84,13 +84,13 @@ export class Decoder {
   }
 
   error(status) {
-    return new AnicError(STATUS[status] ?? `status ${status}`, this.string(this.wasm.web_status_text(status)));
+    return new AnicError(STATUS[status] ?? `status ${status}`, this.string(this.wasm.status_text(status)));
   }
 
   /** The failure of an opening: with the place in the file. */
   failure(status) {
-    const { detail, offset, chunk } = this.read(FAILURE, this.wasm.web_failure());
-    const what = detail || this.string(this.wasm.web_status_text(status));
+    const { detail, offset, chunk } = this.read(FAILURE, this.wasm.failure());
+    const what = detail || this.string(this.wasm.status_text(status));
     const error = new AnicError(STATUS[status] ?? `status ${status}`, chunk ? `${what} (chunk ${chunk}, byte ${offset})` : what,
       { chunk, offset });
     // The full module has geometry interpolation and exact positions, and no other feature.
@@ -151,7 +151,7 @@ export class Decoder {
       new Uint8Array(this.memory.buffer).set(bytes, address);
       return body(address);
     } finally {
-      this.wasm?.web_release(address);
+      this.wasm?.release(address);
     }
   }
 

@@ -180,17 +180,19 @@ struct OutputLanes {
   static void write(const PlayJob::Frame& frame, const Block& sums, uint32_t begin, uint32_t end,
                     unsigned char* to) {
     const VertexFormat format = frame.format;
-#if defined(ANICODEC_SMALL)
-    if (begin > 0 || end < kBlock || format != VertexFormat::kFloat32x3 || frame.stride != 12)
-      return write_scalar(frame, sums, begin, end, to);
-#endif
     const bool whole = begin == 0 && end == kBlock;
-    if (whole && format == VertexFormat::kFloat32x3 && frame.stride == 12) {
-      for (size_t h = 0; h < kBlock; h += W)
-        interleave3(load(sums[0] + h), load(sums[1] + h), load(sums[2] + h), to + 12 * h);
+    if (format == VertexFormat::kFloat32x3 && frame.stride == 12) {
+      alignas(32) unsigned char points[12 * kBlock];
+      unsigned char* const from = whole ? to : points;
+      for (size_t h = begin / W * W; h < end; h += W)
+        interleave3(load(sums[0] + h), load(sums[1] + h), load(sums[2] + h), from + 12 * h);
+      if (!whole)
+        ANICODEC_COPY(to, points + 12 * size_t{begin}, 12 * size_t{end - begin});
       return;
     }
-#if !defined(ANICODEC_SMALL)
+#if defined(ANICODEC_SMALL)
+    write_scalar(frame, sums, begin, end, to);
+#else
     const auto id = static_cast<uint32_t>(format);
     const bool fourth = id % 2;
     const size_t size = id < 2 ? 16 : 8;  // with the fourth

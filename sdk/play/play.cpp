@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/play/play.h"
 
+#include "format/compiler.h"
 #include "sdk/play/play_job.h"
 
 #include <algorithm>
@@ -54,51 +55,59 @@ void set_output(const VertexOutput& output, PlayJob::Frame* frame) {
   frame->scale = output_scale(output);
 }
 
-void set_frame(const FrameState& state, const VertexOutput& output, uint32_t first, uint32_t region,
-               PlayJob::Frame* frame) {
+void set_state(const FrameState& state, uint32_t first, uint32_t region, PlayJob::Frame* frame) {
   frame->weights = state.weights + region * region_weights(*state.segment);
   frame->pose_map = state.pose_maps ? state.pose_maps + size_t{12} * region : nullptr;
   frame->motion = state.moves ? state.motion.m : nullptr;
   frame->corrections_end = state.corrections + state.correction_count;
   frame->correction = std::partition_point(state.corrections, frame->corrections_end,
                                            [&](const auto& c) { return c.vertex < first; });
-  set_output(output, frame);
+}
+
+/// The first vertex behind `first` that is in another region; `end` if there is none before.
+uint32_t end_of_run(const uint8_t* regions, uint32_t first, uint32_t end) {
+  const uint64_t same = regions[first] * uint64_t{0x0101010101010101};
+  uint32_t next = first + 1;
+  for (uint64_t eight = same; end - next >= 8; next += 8) {  // as most are in long runs
+    ANICODEC_COPY(&eight, regions + next, sizeof eight);
+    if (eight != same)
+      break;
+  }
+  while (next < end && regions[next] == regions[first])
+    ++next;
+  return next;
 }
 
 /// Positions made with one set of kernels: of a few frames of a segment, for a range of vertices.
 class RegionPlayer {
  public:
   /// The states are of one segment and play as many components; kMaxPlayedFrames at most.
-  RegionPlayer(const PlayKernels& kernels, const FrameState* states, uint32_t frames)
-      : kernels_(kernels), segment_(*states->segment), states_(states), frames_(frames) {
+  RegionPlayer(const PlayKernels& kernels, const FrameState* states, uint32_t frames,
+               const VertexOutput* outputs)
+      : kernels_(kernels), segment_(*states->segment), states_(states) {
     set_segment(segment_, states->components, &job_);
     job_.frames = frames;
+    for (uint32_t f = 0; f < frames; ++f)
+      set_output(outputs[f], &job_.frame[f]);
   }
 
-  /// Vertices of one region go to the outputs.
-  void play_region(uint32_t region, uint32_t first, uint32_t count, const VertexOutput* outputs) {
+  /// Vertices of one region go to the outputs, behind those before.
+  void play_region(uint32_t region, uint32_t first, uint32_t count) {
     job_.first = first;
     job_.end = first + count;
-    for (uint32_t f = 0; f < frames_; ++f)
-      set_frame(states_[f], outputs[f], first, region, &job_.frame[f]);
+    for (uint32_t f = 0; f < job_.frames; ++f)
+      set_state(states_[f], first, region, &job_.frame[f]);
     kernels_.play(job_);
+    for (uint32_t f = 0; f < job_.frames; ++f)
+      job_.frame[f].out += job_.frame[f].stride * count;
   }
 
-  /// Vertices that follow one another in one region are played as a whole. The outputs are for
-  /// vertices from `begin` on.
-  void play(uint32_t begin, uint32_t count, const VertexOutput* outputs) {
+  /// Vertices that follow one another in one region are played as a whole.
+  void play(uint32_t begin, uint32_t count) {
     const uint8_t* regions = segment_.vertex_region.data();
     for (uint32_t first = begin, end = begin + count; first < end;) {
-      uint32_t next = first + 1;
-      while (next < end && regions[next] == regions[first])
-        ++next;
-      VertexOutput rest[kMaxPlayedFrames];
-      for (uint32_t f = 0; f < frames_; ++f) {
-        rest[f] = outputs[f];
-        rest[f].data =
-            static_cast<unsigned char*>(outputs[f].data) + outputs[f].stride * (first - begin);
-      }
-      play_region(regions[first], first, next - first, rest);
+      const uint32_t next = end_of_run(regions, first, end);
+      play_region(regions[first], first, next - first);
       first = next;
     }
   }
@@ -107,7 +116,6 @@ class RegionPlayer {
   const PlayKernels& kernels_;
   const Segment& segment_;
   const FrameState* states_;
-  uint32_t frames_;
   PlayJob job_;
 };
 
@@ -288,11 +296,11 @@ void play_with(const PlayKernels& kernels, const FrameState* states, uint32_t fr
            states[end].segment == states[f].segment &&
            states[end].components == states[f].components)
       ++end;
-    RegionPlayer player(kernels, states + f, end - f);
+    RegionPlayer player(kernels, states + f, end - f, outputs + f);
     if (states[f].segment->vertex_region.empty())
-      player.play_region(0, first, count, outputs + f);
+      player.play_region(0, first, count);
     else
-      player.play(first, count, outputs + f);
+      player.play(first, count);
     f = end;
   }
 }

@@ -182,7 +182,8 @@ struct LaneKernel {
   /// The frames first .. first + F - 1 of B blocks, of AllF frames.
   template <uint32_t F, uint32_t AllF, uint32_t Channels, uint32_t B>
   static ANICODEC_INLINE void some_sums(const PlayJob& job, uint32_t first, uint32_t block,
-                                        Block* sums, unsigned char* const* direct) {
+                                        uint32_t begin, uint32_t end, Block* sums,
+                                        unsigned char* const* direct) {
     constexpr size_t kMost = B * kBlock / W;
     constexpr size_t N = vectors(F, Channels) < kMost ? vectors(F, Channels) : kMost;
     const PlayJob::Frame* frame = job.frame + first;
@@ -195,7 +196,8 @@ struct LaneKernel {
     const size_t scalars = size_t{block} * Channels * kBlock;
     const int32_t* wide = job.wide + scalars * job.wide_row;
     const int16_t* narrow = job.narrow + scalars * job.narrow_row;
-    for (size_t h = 0; h < kBlock; h += N * W) {
+    const size_t stop = end < kBlock ? end : kBlock;
+    for (size_t h = begin / (N * W) * (N * W); h < stop; h += N * W) {
       Float s[F][3][N];
       if (job.pose) {
         Float in[3][N];
@@ -229,14 +231,14 @@ struct LaneKernel {
   }
 
   template <uint32_t F, uint32_t Channels, uint32_t B>
-  static ANICODEC_INLINE void sums(const PlayJob& job, uint32_t block, Block* sums,
-                                   unsigned char* const* direct) {
+  static ANICODEC_INLINE void sums(const PlayJob& job, uint32_t block, uint32_t begin, uint32_t end,
+                                   Block* sums, unsigned char* const* direct) {
     // Two frames of scalars and all 16 vertices use as many registers as four frames of half of
     // them, and load fewer weights.
     constexpr uint32_t kFirst = Channels == 1 && F > 2 && kSums < 24 && 2 * W <= kBlock ? 2 : F;
-    some_sums<kFirst, F, Channels, B>(job, 0, block, sums, direct);
+    some_sums<kFirst, F, Channels, B>(job, 0, block, begin, end, sums, direct);
     if constexpr (kFirst < F)
-      some_sums<F - kFirst, F, Channels, B>(job, kFirst, block, sums + kFirst,
+      some_sums<F - kFirst, F, Channels, B>(job, kFirst, block, begin, end, sums + kFirst,
                                             direct ? direct + kFirst : nullptr);
   }
 

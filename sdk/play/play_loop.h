@@ -16,8 +16,9 @@ namespace {
 typedef float Block[3][kBlock];
 
 /// The kernel makes F frames of B blocks that follow each other:
-///   sums<F, channels, B>(job, block, sums, direct) combines base and components; to
-///     sums[b * F + f], or as three floats without gaps to `direct` unless that is null;
+///   sums<F, channels, B>(job, block, begin, end, sums, direct) combines base and components of the
+///     vertices begin .. end - 1, and maybe of those beside them; to sums[b * F + f], or as three
+///     floats without gaps to `direct` unless that is null;
 ///   move(map, sums) maps the points of one frame of a block by a 3 x 4 matrix;
 ///   write(frame, sums, begin, end, to) stores the vertices begin .. end - 1 of the block.
 /// B is 1, or blocks_together(F, channels) where so many whole ones are left.
@@ -62,7 +63,9 @@ class FrameLoop {
     for (uint32_t f = 0; f < F; ++f)
       direct &= !corrected(f, base + end);
     alignas(64) Block sums[B * F];
-    Kernel::template sums<F, Channels, B>(job_, block, sums, direct ? out_ : nullptr);
+    // Vertices beside the range are needed only where all of a block are moved or converted.
+    Kernel::template sums<F, Channels, B>(job_, block, plain_ ? begin : 0,
+                                          plain_ ? end : B * kBlock, sums, direct ? out_ : nullptr);
     for (uint32_t f = 0; f < F; ++f) {
       const size_t stride = job_.frame[f].stride;
       if (direct) {

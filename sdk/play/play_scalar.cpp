@@ -88,7 +88,8 @@ struct ScalarKernel {
   static constexpr uint32_t blocks_together(uint32_t, uint32_t) { return 1; }
 
   template <uint32_t F, uint32_t Channels, uint32_t>
-  static void sums(const PlayJob& job, uint32_t block, Block* sums, unsigned char* const* direct) {
+  static void sums(const PlayJob& job, uint32_t block, uint32_t, uint32_t, Block* sums,
+                   unsigned char* const* direct) {
     for (uint32_t f = 0; f < F; ++f) {
       play_block<Channels>(job, job.frame[f], block, sums[f]);
       for (uint32_t i = 0; direct && i < kBlock; ++i) {
