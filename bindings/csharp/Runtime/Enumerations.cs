@@ -265,9 +265,9 @@ namespace Anicodec
     public enum Effort
     {
         Normal = 0,
-        /// <summary>a quarter of the time, for 28 % more bytes.</summary>
+        /// <summary>a third of the time, for 29 % more bytes.</summary>
         Fast = 1,
-        /// <summary>1.8 times the time, for 1 % fewer; the file may take longer to open.</summary>
+        /// <summary>1.8 times the time, for 2 % fewer; the file may take longer to open.</summary>
         Best = 2,
     }
 }

@@ -271,9 +271,9 @@ enumeration! {
     Effort: Normal {
         /// A balance.
         Normal = ANIC_EFFORT_NORMAL,
-        /// A quarter of the time, for 28 % more bytes.
+        /// A third of the time, for 29 % more bytes.
         Fast = ANIC_EFFORT_FAST,
-        /// 1.8 times the time, for 1 % fewer.
+        /// 1.8 times the time, for 2 % fewer.
         Best = ANIC_EFFORT_BEST,
     }
 }
