@@ -53,7 +53,7 @@ def main():
         sys.exit(f"{commands} compiles nothing of {' '.join(sys.argv[3:])}")
 
     def run(file):
-        return subprocess.run([program, "--quiet", "--extra-arg=-Wno-unknown-warning-option", "-p", commands.parent, file], cwd=checkout, capture_output=True, text=True)
+        return subprocess.run([program, "--quiet", "--extra-arg=-Wno-unknown-warning-option", "--extra-arg=-Wno-error", "-p", commands.parent, file], cwd=checkout, capture_output=True, text=True)
 
     findings, failed = set(), []
     with ThreadPoolExecutor(os.cpu_count()) as pool:
