@@ -47,6 +47,17 @@ install_web_packages() {
   done
 }
 
+# The modules of the npm package.
+build_web() {
+  if $packages_wanted && command -v npm >/dev/null; then
+    install_web_packages
+  fi
+  if command -v emcc >/dev/null && [[ -d bindings/web/node_modules/zstd-napi ]]; then
+    build wasm
+    build wasm-scalar
+  fi
+}
+
 # What python.Wheel installs, for that test to install without a network, and headers that it compiles.
 bring_python_packages() {
   [[ -d build/python_packages ]] ||
@@ -59,31 +70,25 @@ bring_python_packages() {
   done
 }
 
-# Beside the build, which wants no network.
-logs=()
+# Beside each other: networks are waited for, and builds end by linking on one processor.
+mkdir -p build
+build_web >build/web.log 2>&1 &
+web=$!
 if $packages_wanted; then
-  mkdir -p build
   bring_python_packages >build/python_packages.log 2>&1 &
-  logs+=(build/python_packages.log)
-  if command -v npm >/dev/null; then
-    install_web_packages >build/web_packages.log 2>&1 &
-    logs+=(build/web_packages.log)
-  fi
 fi
 build test
+status=0
+wait "$web" || status=$?
 wait
-for log in "${logs[@]}"; do
-  cat "$log"
-  rm "$log"
+for log in build/python_packages.log build/web.log; do
+  if [[ -f $log ]]; then
+    cat "$log"
+    rm "$log"
+  fi
 done
-if command -v emcc >/dev/null && [[ -d bindings/web/node_modules/zstd-napi ]]; then
-  # Side by side, as both end by linking on one processor.
-  build wasm-scalar >build/wasm_scalar.log 2>&1 &
-  scalar=$!
-  build wasm
-  wait "$scalar" || { cat build/wasm_scalar.log; exit 1; }
-  cat build/wasm_scalar.log
-  rm build/wasm_scalar.log
+if ((status)); then
+  fail "build_web ended with status $status"
 fi
 say "Running the tests"
 # One more than there are processors: browsers, Blender and killed runs wait more than they work.
