@@ -58,7 +58,7 @@ build_web() {
   fi
 }
 
-# What python.Wheel installs, for that test to install without a network, and headers that it compiles.
+# Packages that python.Wheel installs, without a network then, and headers that it compiles.
 bring_python_packages() {
   [[ -d build/python_packages ]] ||
     timeout 300 python3 -m pip download --quiet --disable-pip-version-check --no-deps --require-hashes --only-binary :all: \
@@ -72,6 +72,7 @@ bring_python_packages() {
 
 # Beside each other: networks are waited for, and builds end by linking on one processor.
 mkdir -p build
+rm -f build/python_packages.log
 build_web >build/web.log 2>&1 &
 web=$!
 if $packages_wanted; then
