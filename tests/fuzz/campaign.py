@@ -146,28 +146,29 @@ class Campaign:
         merged = work / "all.profdata"
         subprocess.run(["llvm-profdata", "merge", "-o", merged, *profiles], check=True)
         objects = [word for name in self.targets for word in ("-object", programs / f"{name}_fuzz")][1:]
-        text = subprocess.run(["llvm-cov", "export", "-format=lcov", f"-instr-profile={merged}", *objects, "-skip-expansions",
-                               ROOT / "format", ROOT / "sdk"], check=True, capture_output=True, text=True).stdout
+        text = subprocess.run(["llvm-cov", "export", "-format=lcov", f"-instr-profile={merged}", *objects, "-skip-expansions"],
+                              check=True, capture_output=True, text=True).stdout
         report(text)
 
 
 def report(lcov):
     """Prints lines reached of each file, and runs of lines that were not."""
-    rooms, missed, lines = {}, {}, {}
+    files, lines = {}, {}
     for line in lcov.splitlines():
         if line.startswith("SF:"):
-            lines = {}
-            path = pathlib.Path(line[3:]).relative_to(ROOT)
+            # A compiler cache makes paths relative to the folder of the build.
+            path = re.search(r"(?:^|/)((?:format|sdk)/[a-z0-9_/]+\.(?:cpp|h))$", line[3:])
+            lines = files.setdefault(path.group(1), {}) if path and (ROOT / path.group(1)).exists() else {}
         elif line.startswith("DA:"):
             number, count = map(int, line[3:].split(",")[:2])
             lines[number] = lines.get(number, 0) + count
-        elif line == "end_of_record":
-            room = rooms.setdefault(str(path.parent), [0, 0])
-            room[0] += sum(count > 0 for count in lines.values())
-            room[1] += len(lines)
-            if all(lines.values()):
-                continue
-            missed[str(path)] = sorted(number for number, count in lines.items() if count == 0)
+    rooms, missed = {}, {}
+    for path, lines in files.items():
+        room = rooms.setdefault(str(pathlib.PurePath(path).parent), [0, 0])
+        room[0] += sum(count > 0 for count in lines.values())
+        room[1] += len(lines)
+        if not all(lines.values()):
+            missed[path] = sorted(number for number, count in lines.items() if count == 0)
     for name, (reached, all_lines) in sorted(rooms.items()):
         print(f"{name}: {reached} of {all_lines} lines, {100 * reached / all_lines:.1f} %")
     for module in ("format", "sdk"):
