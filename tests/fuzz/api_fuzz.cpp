@@ -4,6 +4,7 @@
 // was announced, plays, and gives everything back. The last bytes decide what is done with it, and
 // whether checksums are repaired first.
 #include "tests/fuzz/fuzz_asset.h"
+#include "tests/fuzz/fuzz_drawing.h"
 
 #include <algorithm>
 
@@ -72,8 +73,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     require(verified == ANIC_OK || verified == ANIC_E_HASH || verified == ANIC_E_STATE);
     sample(asset, &memory, script);
     look(asset, script);
+    draw(asset, script);
   }
   anic_close_asset(asset);
   require(memory.held == 0);
+  read_unopened(file, script);
   return 0;
 }
