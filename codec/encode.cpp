@@ -45,6 +45,7 @@ EncodeResult encode_alone(MeshSequence sequence, const EncodeOptions& options,
     throw Error(ErrorKind::kUsage, "lossless goes without massage, which moves the vertices");
   if (mode != MassageMode::kOff && !sequence.clips.empty())
     throw Error(ErrorKind::kUsage, "several clips are not massaged together");
+  check(sequence);
   MassageVerdict verdict;
   if (mode == MassageMode::kAuto && !massage_pays(sequence, options, progress, &verdict))
     mode = MassageMode::kOff;
@@ -52,8 +53,9 @@ EncodeResult encode_alone(MeshSequence sequence, const EncodeOptions& options,
   if (mode == MassageMode::kOff) {
     result = encode_plain(std::move(sequence), options, progress);
   } else {
-    const double source = EncodingMemory::of(sequence, EncodeOptions()).positions();
+    const double source = EncodingMemory::of(sequence).positions();
     MeshSequence massaged = massage(sequence, options.massage.options, progress).sequence;
+    check(massaged);
     const HausdorffDistance moved = compare_surfaces(sequence, massaged).total;
     EncodeOptions changed = options;
     changed.most_bytes = most_bytes_beside(source, options.most_bytes);
@@ -95,8 +97,9 @@ std::vector<EncodedMesh> encode_runs(SceneMesh mesh, EncodeOptions options, cons
   std::vector<EncodedMesh> encoded;
   if (options.keyframes)
     options.keyframes = std::min(*options.keyframes, mesh.sequence.frame_count);
+  const double size = diagonal(mesh.sequence);
   if (mesh.present_in.size() == 1) {
-    const MeshPlan plan = plan_mesh(mesh.sequence, options, {goal});
+    const MeshPlan plan = plan_mesh(mesh.sequence, options, {goal}, size);
     encoded.push_back(encode_mesh(std::move(mesh.sequence), plan, progress));
     return encoded;
   }
@@ -104,7 +107,7 @@ std::vector<EncodedMesh> encode_runs(SceneMesh mesh, EncodeOptions options, cons
   for (const FrameRun& run : mesh.present_in) {
     part = {part.first + part.count, run.count};
     options.part = part;
-    const MeshPlan plan = plan_mesh(mesh.sequence, options, {goal});
+    const MeshPlan plan = plan_mesh(mesh.sequence, options, {goal}, size);
     encoded.push_back(encode_mesh(mesh.sequence, plan, progress));
   }
   return encoded;
@@ -186,8 +189,13 @@ void check_scene(const Scene& scene, const EncodeOptions& options) {
   if (scene.meshes.size() > kMaxMeshes)
     throw Error(ErrorKind::kInput,
                 std::to_string(scene.meshes.size()) + " meshes; at most 65535 are possible");
-  for (const SceneMesh& mesh : scene.meshes)
+  if (scene.meshes.empty())
+    throw Error(ErrorKind::kInput, "there is no mesh");
+  for (const SceneMesh& mesh : scene.meshes) {
+    if (mesh.present_in.empty())
+      throw Error(ErrorKind::kInput, "mesh '" + mesh.sequence.mesh_name + "' is in no frame");
     naming(mesh.sequence.mesh_name, mesh.present_in, [&] { check(mesh.sequence); });
+  }
   if (!scene.clip.clips.empty())
     throw Error(ErrorKind::kUsage, "several clips of several meshes are not encoded together");
   if (options.root_motion)
@@ -223,12 +231,12 @@ EncodeResult encode_meshes(Scene scene, const EncodeOptions& options, const Prog
   std::vector<MeshRun> placed;
   double waiting = 0;  // bytes of positions
   for (const SceneMesh& mesh : scene.meshes)
-    waiting += EncodingMemory::of(mesh.sequence, EncodeOptions()).positions();
+    waiting += EncodingMemory::of(mesh.sequence).positions();
   for (uint16_t m = 0; m < scene.meshes.size(); ++m) {
     SceneMesh& mesh = scene.meshes[m];
     const std::vector<FrameRun> present_in = mesh.present_in;
     const std::string name = mesh.sequence.mesh_name;
-    const double own = EncodingMemory::of(mesh.sequence, EncodeOptions()).positions();
+    const double own = EncodingMemory::of(mesh.sequence).positions();
     waiting -= own;
     // A mesh that is there at several times stays until the last of them is encoded.
     of_mesh.most_bytes =

@@ -105,7 +105,7 @@ void LiveEncoder::begin(const MeshSequence& sequence) {
 MeshPlan LiveEncoder::plan(const MeshSequence& sequence) {
   ClipGoal goal = *goal_;
   goal.diagonal = diagonal(sequence);
-  MeshPlan plan = plan_mesh(sequence, options_, {goal});
+  MeshPlan plan = plan_mesh(sequence, options_, {goal}, goal.diagonal);
   plan.layout = layout_;
   plan.stored = stored_;
   plan.learning = key_every_ > 0 ? &learning_ : nullptr;

@@ -287,7 +287,6 @@ Bytes EncodedMesh::file() const {
 }
 
 EncodedMesh encode_mesh(MeshSequence sequence, const MeshPlan& plan, const Progress& progress) {
-  check(sequence);
   if (plan.most_bytes == 0)
     return encode_within(std::move(sequence), plan, progress, nullptr);
   const size_t threads = thread_count();

@@ -30,9 +30,10 @@ struct EncodedMesh {
 };
 
 /// Encodes a mesh, decodes the file of it alone, and checks that it keeps what the plan promises. The sequence is
-/// taken over and may lie in files (FrameArray). Deterministic, whatever the threads. Throws Error: kInput for a bad
-/// sequence, kUsage for a target that cannot be reached (the text states the best that can), kInternal when the check
-/// fails; OverMemory where more than plan.most_bytes would be held.
+/// taken over and may lie in files (FrameArray). Deterministic, whatever the threads. Throws Error: kInput for values
+/// that the format cannot hold, kUsage for a target that cannot be reached (the text states the best that can),
+/// kInternal when the check fails; OverMemory where more than plan.most_bytes would be held.
+/// @pre check(sequence) throws nothing
 EncodedMesh encode_mesh(MeshSequence sequence, const MeshPlan& plan, const Progress& progress);
 
 }  // namespace anicodec

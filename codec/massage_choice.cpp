@@ -36,6 +36,7 @@ MeshSequence sample_of(const MeshSequence& sequence, uint32_t reference) {
 }
 
 uint64_t file_bytes(MeshSequence sequence, const EncodeOptions& options, const Progress& progress) {
+  check(sequence);
   const MeshPlan plan = plan_mesh(sequence, options);
   return encode_mesh(std::move(sequence), plan, progress).file().size();
 }

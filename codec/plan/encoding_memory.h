@@ -30,7 +30,7 @@ struct EncodingMemory {
   bool lossless = false;        ///< exact positions are kept, too
 
   /// A sequence that is encoded so.
-  static EncodingMemory of(const MeshSequence& sequence, const EncodeOptions& options);
+  static EncodingMemory of(const MeshSequence& sequence, const EncodeOptions& options = {});
 
   /// The same by a plan.
   static EncodingMemory of(const MeshSequence& sequence, const MeshPlan& plan);

@@ -53,20 +53,22 @@ bool MeshPlan::is_lossless() const {
 }
 
 MeshPlan plan_mesh(const MeshSequence& sequence, const EncodeOptions& options,
-                   std::vector<ClipGoal> goals) {
+                   std::vector<ClipGoal> goals, double diagonal) {
   check_goes_together(sequence, options);
   MeshPlan plan;
   static_cast<CodingOptions&>(plan) = options;
   plan.goals = std::move(goals);
-  plan.diagonal = diagonal(sequence);
+  plan.diagonal = diagonal;
   plan.run = options.part;
   return plan;
 }
 
 MeshPlan plan_mesh(const MeshSequence& sequence, const EncodeOptions& options) {
-  return plan_mesh(
-      sequence, options,
-      clip_goals(options.target, options.cap, clip_diagonals(sequence), diagonal(sequence)));
+  const double whole = diagonal(sequence);
+  const std::vector<double> diagonals =
+      sequence.clips.empty() ? std::vector{whole} : clip_diagonals(sequence);
+  return plan_mesh(sequence, options, clip_goals(options.target, options.cap, diagonals, whole),
+                   whole);
 }
 
 }  // namespace anicodec

@@ -35,12 +35,13 @@ struct MeshPlan : CodingOptions {
   bool is_lossless() const;
 };
 
-/// The plan of a mesh whose clips have these goals. Throws Error(kUsage) for options that exclude one another, or that
-/// the sequence has too few frames for. Cost: O(vertices x frames), for the diagonal.
+/// The plan of a mesh whose clips have these goals. `diagonal`: diagonal(sequence). Throws Error(kUsage) for options that
+/// exclude one another, or that the sequence has too few frames for.
 MeshPlan plan_mesh(const MeshSequence& sequence, const EncodeOptions& options,
-                   std::vector<ClipGoal> goals);
+                   std::vector<ClipGoal> goals, double diagonal);
 
-/// The plan of a mesh that takes a target in per cent of its own size.
+/// The plan of a mesh that takes a target in per cent of its own size. Cost: O(vertices x frames).
+/// @pre check(sequence) throws nothing
 MeshPlan plan_mesh(const MeshSequence& sequence, const EncodeOptions& options);
 
 }  // namespace anicodec

@@ -69,6 +69,12 @@ TEST(MassageChoice, AutoCodesWhatHasNoSurface) {
   EXPECT_THROW(encode(points, massaged_at_kg(0.1, MassageMode::kOn)), Error);
 }
 
+TEST(MassageChoice, NeedsASequenceThatFits) {
+  MeshSequence clip = corpus::make_scaled("limb", 300, 12);
+  clip.positions.resize(clip.positions.size() / 2);
+  EXPECT_THROW(encode(clip, massaged_at_kg(0.1, MassageMode::kAuto)), Error);
+}
+
 TEST(MassageChoice, KeepsTheSurfaceWithinTheTolerance) {
   const MeshSequence clip = corpus::make_scaled("sliding", 400, 8);
   EncodeOptions options = massaged_at_kg(0.1, MassageMode::kOn);

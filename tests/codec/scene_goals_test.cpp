@@ -109,6 +109,16 @@ TEST(SceneGoals, AreThoseOfTheWhole) {
   EXPECT_DOUBLE_EQ(of_kg.value, 0.001 * std::sqrt(extent.spread / extent.positions));
 }
 
+TEST(SceneGoals, RefusesScenesWithoutMeshAndMeshesWithoutFrame) {
+  EncodeOptions options;
+  options.target = {ErrorMetric::kMaxError, 1, true};
+  Scene scene = split_parts(two_boxes());
+  scene.meshes[1].present_in.clear();
+  EXPECT_THROW(encode(scene, options), Error);
+  scene.meshes.clear();
+  EXPECT_THROW(encode(scene, options), Error);
+}
+
 TEST(SceneGoals, RefusesATargetSize) {
   EncodeOptions options;
   options.target = {ErrorMetric::kSize, 1e6, false};

@@ -266,7 +266,7 @@ class Batch {
     std::unique_lock reading(read_);
     MeshSequence sequence = load_(clip, [&](const std::string& text) { notes.push_back(text); });
     const uint64_t bytes = sequence.positions.size() * sizeof(float);
-    const EncodingMemory needs = EncodingMemory::of(sequence, EncodeOptions());
+    const EncodingMemory needs = EncodingMemory::of(sequence);
     const Taken memory(
         budget_, static_cast<uint64_t>(needs.kept({}) +
                                        static_cast<double>(thread_count()) * needs.thread({})));
