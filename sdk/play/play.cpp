@@ -91,15 +91,13 @@ class RegionPlayer {
       set_output(outputs[f], &job_.frame[f]);
   }
 
-  /// Vertices of one region go to the outputs, behind those before.
+  /// Vertices of one region go to the outputs.
   void play_region(uint32_t region, uint32_t first, uint32_t count) {
     job_.first = first;
     job_.end = first + count;
     for (uint32_t f = 0; f < job_.frames; ++f)
       set_state(states_[f], first, region, &job_.frame[f]);
     kernels_.play(job_);
-    for (uint32_t f = 0; f < job_.frames; ++f)
-      job_.frame[f].out += job_.frame[f].stride * count;
   }
 
   /// Vertices that follow one another in one region are played as a whole.
@@ -108,6 +106,9 @@ class RegionPlayer {
     for (uint32_t first = begin, end = begin + count; first < end;) {
       const uint32_t next = end_of_run(regions, first, end);
       play_region(regions[first], first, next - first);
+      // Only to a vertex that is there: strides are as large as hosts want.
+      for (uint32_t f = 0; f < job_.frames && next < end; ++f)
+        job_.frame[f].out += job_.frame[f].stride * (next - first);
       first = next;
     }
   }
