@@ -20,6 +20,8 @@ namespace {
 
 // Columns of cross products kept between fits: 9 frames doubles each.
 constexpr size_t kKeptBytes = size_t{256} << 20;
+// Fits kept in all. Searches for a largest error ask for the same ones again and again.
+constexpr size_t kFitBytes = size_t{1} << 20;
 
 Matrix3Xd positions(const FrameView& clip, size_t f) {
   const auto count = static_cast<Index>(clip.vertex_count);
@@ -46,6 +48,12 @@ KeyframeFit robust(const Fit& fit) {
   if (exact.noise_gain() <= kMostGain)
     return exact;
   return fit(kFitNoise * exact.squared_error() / static_cast<double>(exact.squared_errors.size()));
+}
+
+size_t bytes_of(const KeyframeFit& fit) {
+  return sizeof fit +
+         static_cast<size_t>(fit.weights.size() + fit.squared_errors.size()) * sizeof(double) +
+         fit.motions.size() * sizeof(RigidMotion) + fit.keyframes.size() * sizeof(uint32_t);
 }
 
 KeyframeFit better(KeyframeFit a, KeyframeFit b) {
@@ -78,6 +86,19 @@ const MatrixXd& KeyframeFitter::products(KeyframeWeights kind) {
 }
 
 KeyframeFit KeyframeFitter::fit(size_t count, KeyframeMethod method, KeyframeWeights kind) {
+  const std::tuple key(count, method, kind);
+  if (const auto known = kept_.find(key); known != kept_.end())
+    return known->second;
+  KeyframeFit made = chosen_fit(count, method, kind);
+  const size_t bytes = bytes_of(made);
+  if (kept_bytes_ + bytes <= kFitBytes) {
+    kept_bytes_ += bytes;
+    kept_.emplace(key, made);
+  }
+  return made;
+}
+
+KeyframeFit KeyframeFitter::chosen_fit(size_t count, KeyframeMethod method, KeyframeWeights kind) {
   if (kind == KeyframeWeights::kLinear) {
     return fit(select_keyframes(centred_, count, method, KeyframeSpan::kLinear), kind);
   }

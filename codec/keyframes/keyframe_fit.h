@@ -10,7 +10,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include <Eigen/Core>
@@ -54,7 +56,7 @@ class KeyframeFitter {
 
   /// Chooses count key-frames, 1 <= count <= frames, and fits. Fewer come out where more would be
   /// of no use (select_keyframes()). kRigid reads the vertices once more for the key-frames that
-  /// are new to it, O(vertices frames count).
+  /// are new to it, O(vertices frames count). Asked once more, small fits cost nothing: they are kept.
   KeyframeFit fit(size_t count, KeyframeMethod method, KeyframeWeights kind);
 
   /// Fits to given key-frames: ascending, in range, not repeated. Weights that would enlarge the
@@ -67,6 +69,7 @@ class KeyframeFitter {
   double rmse(const KeyframeFit& fit) const;
 
  private:
+  KeyframeFit chosen_fit(size_t count, KeyframeMethod method, KeyframeWeights kind);
   void align();
   std::vector<Eigen::Matrix3d> unturned() const;
   KeyframeFit fit_rigid(const std::vector<uint32_t>& keyframes,
@@ -78,6 +81,8 @@ class KeyframeFitter {
   std::vector<Eigen::Matrix3d> rotations_;  // empty until aligned
   Eigen::MatrixXd aligned_;
   std::optional<CrossProducts> cross_;
+  std::map<std::tuple<size_t, KeyframeMethod, KeyframeWeights>, KeyframeFit> kept_;
+  size_t kept_bytes_ = 0;
 };
 
 /// The aligned key-frame A_j: frame f turned back about its centroid, R_f^T (x_f - t_f);

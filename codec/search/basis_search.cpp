@@ -31,8 +31,21 @@ constexpr double kClearly = 0.9;
 // fewer are believed, the more key-frames are tried.
 constexpr double kBitsOfMsgi = 2;
 constexpr size_t kMostMsgiKeyframes = 48;
+// An object that moves so simply that few key-frames and bytes do is not searched further, as scenes have thousands of
+// them: what is left to save are single bytes.
+constexpr size_t kMostOfSimple = 1 << 14;  // positions of all frames
+constexpr size_t kKeyframesOfSimple = 4, kBytesOfSimple = 96;
+// A file of fewer bytes cannot save enough for what MSGI costs a decoder.
+constexpr size_t kFewestBytesOfMsgi = 1024;
 // The most that weights and a choice of key-frames win on evenly spread ones.
 constexpr double kHopelessMsgi = 8;
+
+size_t bytes_of_segments(const Solution& solution) {
+  size_t bytes = 0;
+  for (const CodedSegment& segment : solution.segments)
+    bytes += segment.encoded.bytes();
+  return bytes;
+}
 
 }  // namespace
 
@@ -87,15 +100,16 @@ std::optional<Solution> BasisSearch::of_all_clips() {
   if (options_.basis == BasisChoice::kKeyframes || options_.keyframes) {
     best = by_keyframes_alone();
   } else {
+    if (may_be_simple()) {
+      offer_keyframes(&best);
+      if (best && bytes_of_segments(*best) <= kBytesOfSimple)
+        return best;
+      best.reset();
+    }
     best = by_linear_bases();
     // In a long clip only if nothing else keeps the target.
-    if (tries_keyframes(!best) && !(best && beats_keyframes(*best))) {
-      if (keyframe_searches_.empty())
-        add_keyframe_search(Reconstruction::kLinear);
-      if (best && search_.rmse_asked())
-        keyframe_searches_[0]->give_up_above(kHopeless * static_cast<double>(best->bytes));
-      offer(*keyframe_searches_[0], &best);
-    }
+    if (tries_keyframes(!best) && !(best && beats_keyframes(*best)))
+      offer_keyframes(&best);
     if (best && allows_msgi())
       try_msgi(&*best);
     if (options_.basis == BasisChoice::kAuto && keyframe_searches_.empty() &&
@@ -122,6 +136,24 @@ void BasisSearch::offer(SegmentSearch& search, std::optional<Solution>* best) {
   search_.keep_better(search_.reach(search, best->has_value() ? &**best : nullptr), best);
 }
 
+void BasisSearch::offer_keyframes(std::optional<Solution>* best) {
+  if (keyframe_searches_.empty())
+    add_keyframe_search(Reconstruction::kLinear);
+  if (*best && search_.rmse_asked())
+    keyframe_searches_[0]->give_up_above(kHopeless * static_cast<double>((*best)->bytes));
+  offer(*keyframe_searches_[0], best);
+}
+
+bool BasisSearch::may_be_simple() {
+  if (!tries_keyframes(false) || options_.effort == Effort::kBest || is_size(bound_.metric) ||
+      size_t{input_.layout.sizes.coded_vertices} * input_.sequence.frame_count > kMostOfSimple)
+    return false;
+  if (keyframe_searches_.empty())
+    add_keyframe_search(Reconstruction::kLinear);
+  KeyframeSearch& search = *keyframe_searches_[0];
+  return search.count_at(search_.typical_rmse(search)) <= kKeyframesOfSimple;
+}
+
 bool BasisSearch::tries_keyframes(bool of_any_clip) const {
   return options_.basis == BasisChoice::kAuto && !input_.pose &&
          (of_any_clip || input_.sequence.frame_count <= kMostMultiplied);
@@ -135,6 +167,8 @@ bool BasisSearch::allows_msgi() const {
 }
 
 void BasisSearch::try_msgi(Solution* best) {
+  if (!options_.interpolation && best->bytes < kFewestBytesOfMsgi)
+    return note("the positions take " + std::to_string(best->bytes) + " bytes, too few to save on");
   const double rmse = input_.rmse(best->squared_error());
   const double keyframe = kBitsOfMsgi / 8 * 3 * input_.layout.sizes.coded_vertices;
   const auto most = static_cast<size_t>(kClearly * static_cast<double>(best->bytes) / keyframe);

@@ -50,6 +50,8 @@ class BasisSearch {
   void try_msgi(Solution* best);
   void note(const std::string& reason);
   void offer(SegmentSearch& search, std::optional<Solution>* best);
+  void offer_keyframes(std::optional<Solution>* best);
+  bool may_be_simple();
   std::optional<Solution> cut_in_time(const Solution& whole, const LinearSearch& search);
   bool beats_keyframes(const Solution& solution) const;
   [[noreturn]] void fail() const;

@@ -28,6 +28,9 @@ class KeyframeSearch : public SegmentSearch {
 
   std::optional<CodedSegment> at_rmse(double rmse) override;
 
+  /// Key-frames that the error needs if they are exact.
+  size_t count_at(double rmse) { return fit(rmse).fit.keyframes.size(); }
+
   /// Takes no more key-frames: what needs more is out of reach.
   void take_at_most(size_t keyframes) { most_keyframes_ = keyframes; }
 

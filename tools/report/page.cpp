@@ -130,17 +130,24 @@ std::string keyframe_section(const Report& report) {
       "<h2>Key-frames and components</h2><p>The clip expressed by so many exact key-frames, chosen "
       "by Neural Gas (gas), pivoting (pivot) or evenly (uniform), or by principal components "
       "(pca, dashed). Nothing is quantised.</p><div class=\"charts\">";
-  constexpr std::pair<const char*, const char*> kWeights[] = {
+
+  struct Kind {
+    const char* weights;
+    const char* title;
+  };
+
+  constexpr Kind kKinds[] = {
       {"linear", "Any weights"},
       {"sum-to-one", "Weights that sum to one, so that a clip far from the origin costs nothing"},
       {"rigid", "A rigid motion for each frame, then weights of what it leaves"}};
-  for (const auto& [weights, title] : kWeights) {
-    const bool rigid = std::string(weights) == "rigid";
+  for (const Kind& kind : kKinds) {
+    const std::string weights = kind.weights;
+    const bool rigid = weights == "rigid";
     Chart chart = basis_chart(report, [&](const std::string& method) {
-      return method.find(std::string("-") + weights) != std::string::npos ||
+      return method.find("-" + weights) != std::string::npos ||
              (!rigid && starts_with(method, "pca") && method != "pca-mean-rigid");
     });
-    chart.title = title;
+    chart.title = kind.title;
     out += svg_of(chart);
   }
   out += "</div>";
