@@ -169,17 +169,16 @@ void check_scene(const Scene& scene, const EncodeOptions& options) {
     throw Error(ErrorKind::kUsage, "a part is of one mesh that is always there");
 }
 
-/// The options of each mesh.
-EncodeOptions options_of_meshes(const Scene& scene, const EncodeOptions& options) {
-  EncodeOptions of_mesh = options;
+/// Metadata of the file.
+std::string metadata_of(const Scene& scene, const EncodeOptions& options) {
+  if (!options.attributes.keep)
+    return options.metadata;
   std::vector<const Attribute*> attributes;
   for (const SceneMesh& mesh : scene.meshes) {
     for (const Attribute& attribute : mesh.sequence.attributes)
       attributes.push_back(&attribute);
   }
-  if (options.attributes.keep)
-    of_mesh.metadata = with_fields(options.metadata, attributes);
-  return of_mesh;
+  return with_fields(options.metadata, attributes);
 }
 
 /// Encodes the meshes of a scene in their order: small ones together, one by a thread, others one after the other.
@@ -189,9 +188,11 @@ class MeshEncoder {
   MeshEncoder(Scene& scene, const EncodeOptions& options, const ClipGoal& goal,
               const Progress& progress)
       : meshes_(scene.meshes),
-        options_(options_of_meshes(scene, options)),
+        options_(options),
+        metadata_(metadata_of(scene, options)),
         goal_(goal),
         progress_(progress) {
+    options_.metadata.clear();
     for (const SceneMesh& mesh : meshes_)
       waiting_ += EncodingMemory::of(mesh.sequence).positions();
   }
@@ -266,8 +267,8 @@ class MeshEncoder {
     SceneMesh& mesh = meshes_[number];
     EncodeOptions options = options_;
     options.most_bytes = most_bytes;
-    if (number > 0)
-      options.metadata.clear();  // the file has that of its first mesh
+    if (number == 0)  // the file has that of its first mesh
+      options.metadata = metadata_;
     const std::vector<FrameRun> present_in = mesh.present_in;
     const std::string name = mesh.sequence.mesh_name;
     return naming(name, present_in,
@@ -275,7 +276,8 @@ class MeshEncoder {
   }
 
   std::vector<SceneMesh>& meshes_;
-  const EncodeOptions options_;
+  EncodeOptions options_;
+  const std::string metadata_;
   const ClipGoal& goal_;
   const Progress& progress_;
   size_t next_ = 0;

@@ -21,7 +21,7 @@ namespace {
 // Columns of cross products kept between fits: 9 frames doubles each.
 constexpr size_t kKeptBytes = size_t{256} << 20;
 // Fits kept in all. Searches for a largest error ask for the same ones again and again.
-constexpr size_t kFitBytes = size_t{1} << 20;
+constexpr size_t kFitBytes = size_t{1} << 18;
 
 Matrix3Xd positions(const FrameView& clip, size_t f) {
   const auto count = static_cast<Index>(clip.vertex_count);

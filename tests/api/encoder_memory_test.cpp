@@ -153,6 +153,22 @@ TEST(EncoderMemory, OfASceneIsThatOfItsMeshes) {
   EXPECT_LE(count.peak(), options.most_bytes);
 }
 
+TEST(EncoderMemory, OfSmallMeshesTogetherIsWithinWhatTheyMayHold) {
+  Scene scene;
+  scene.clip = corpus::make_wave_grid(100, 20, 4);
+  for (int m = 0; m < 30; ++m) {
+    SceneMesh& mesh = scene.meshes.emplace_back();
+    mesh.sequence = scene.clip;
+    mesh.present_in = {{0, 20}};
+  }
+  scene.clip.positions.clear();
+  EncodeOptions options = options_of(Effort::kFast);
+  options.most_bytes = 4 * (36 << 20);
+  const HeapCount count;
+  with_threads(4, [&] { encode(scene, options); });
+  EXPECT_LE(count.peak(), options.most_bytes);
+}
+
 TEST(EncoderMemory, TakesFewerThreadsWhereItIsShort) {
   EncodingMemory memory;
   memory.vertices = 100000;
