@@ -86,7 +86,9 @@ class PatchClip {
     posed.rowwise() -= posed.colwise().mean().eval();
     const MatrixXd parts = kept.asDiagonal() * (pairs.vectors.transpose() * posed);
     for (Index f = 0; f < rows; ++f) {
-      const Eigen::RowVectorXd move = pairs.vectors.row(f) * parts - posed.row(f);
+      Eigen::RowVectorXd move = -posed.row(f);
+      if (parts.rows() > 0)  // nothing of a patch may be above the noise
+        move += pairs.vectors.row(f) * parts;
       const Points back =
           Eigen::Map<const Points>(move.data(), points, 3) * rotation(rotations, f).transpose();
       std::transform(back.data(), back.data() + back.size(),

@@ -118,28 +118,28 @@ TEST(EncodeScene, RefusesATargetSize) {
   EXPECT_THROW(encode(split_parts(two_boxes()), options), Error);
 }
 
-constexpr uint32_t kFrames = 6;
+constexpr uint32_t kSceneFrames = 6;
 
 /// Boxes that move, of which every third turns; one is so large that it is encoded by itself.
 Scene many_meshes() {
   constexpr int kMeshes = 20, kLarge = 13;
   Scene scene;
-  scene.clip.frame_count = kFrames;
+  scene.clip.frame_count = kSceneFrames;
   for (int m = 0; m < kMeshes; ++m) {
     SceneMesh& mesh = scene.meshes.emplace_back();
-    mesh.present_in = {{0, kFrames}};
-    mesh.sequence =
-        m == kLarge ? corpus::make_wave_grid(3000, kFrames, 4) : corpus::make_clip("painted_box");
+    mesh.present_in = {{0, kSceneFrames}};
+    mesh.sequence = m == kLarge ? corpus::make_wave_grid(3000, kSceneFrames, 4)
+                                : corpus::make_clip("painted_box");
     MeshSequence& sequence = mesh.sequence;
     sequence.mesh_name = "mesh" + std::to_string(m);
     if (m == kLarge)
       continue;
     const std::vector<float> box(sequence.positions.begin(),
                                  sequence.positions.begin() + size_t{3} * sequence.vertex_count);
-    sequence.frame_count = kFrames;
+    sequence.frame_count = kSceneFrames;
     sequence.attributes.clear();
     sequence.positions.clear();
-    for (uint32_t f = 0; f < kFrames; ++f) {
+    for (uint32_t f = 0; f < kSceneFrames; ++f) {
       const float t = 0.2F * static_cast<float>(f) * static_cast<float>(m);
       const float c = m % 3 == 0 ? std::cos(t) : 1, s = m % 3 == 0 ? std::sin(t) : 0;
       for (size_t i = 0; i < box.size(); i += 3)
@@ -151,7 +151,7 @@ Scene many_meshes() {
   return scene;
 }
 
-EncodeOptions usual() {
+EncodeOptions usual_target() {
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 0.05, true};
   return options;
@@ -159,7 +159,7 @@ EncodeOptions usual() {
 
 TEST(EncodeScene, IsTheSameForAnyNumberOfThreadsAndWithLittleMemory) {
   const Scene scene = many_meshes();
-  EncodeOptions options = usual();
+  EncodeOptions options = usual_target();
   Bytes by_one, by_four, one_by_one;
   with_threads(1, [&] { by_one = encode(scene, options).file; });
   with_threads(4, [&] { by_four = encode(scene, options).file; });
@@ -175,7 +175,7 @@ TEST(EncodeScene, ThrowsTheErrorOfTheFirstMeshThatHasOne) {
     for (float& x : scene.meshes[m].sequence.positions)
       x *= 1e6F;
   }
-  EncodeOptions options = usual();
+  EncodeOptions options = usual_target();
   options.target = {ErrorMetric::kMaxError, 1e-3, false};
   for (int round = 0; round < 5; ++round) {
     with_threads(4, [&] {
@@ -193,13 +193,13 @@ TEST(EncodeScene, TellsItsProgressAndLeavesWhenThatThrows) {
   struct Left {};
 
   double last = 0;
-  encode(many_meshes(), usual(), [&](std::string_view, double done) {
+  encode(many_meshes(), usual_target(), [&](std::string_view, double done) {
     EXPECT_LE(done, 1);
     last = done;
   });
   EXPECT_GT(last, 0.5);
-  EXPECT_THROW(encode(many_meshes(), usual(), [](std::string_view, double) { throw Left(); }),
-               Left);
+  EXPECT_THROW(
+      encode(many_meshes(), usual_target(), [](std::string_view, double) { throw Left(); }), Left);
 }
 
 }  // namespace
