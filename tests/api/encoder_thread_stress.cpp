@@ -29,7 +29,7 @@ void require(bool condition) {
     std::abort();
 }
 
-/// What is encoded, and how.
+/// A scene, and options to encode it by.
 struct Job {
   uint64_t flags = 0;
   uint32_t meshes = 1;  ///< small ones, which an encoder takes at the same time
