@@ -371,9 +371,10 @@ class AttributeWriter {
     check_count(normals.values.size(),
                 rows_of(normals).size() * size_t{normals.components} * normals.frames,
                 normals.name);
+    const std::vector<uint32_t> of_corners = rows_of_corners(sequence_.polygons, normals.domain);
     std::vector<uint32_t> rows(corners_.size()), places(corners_.size());
     for (uint32_t c = 0; c < corners_.size(); ++c) {
-      rows[c] = normals.per_corner() ? corners_[c] : layout_.vertex_source[graph_.vertex(c)];
+      rows[c] = of_corners[corners_[c]];
       places[c] = graph_.coded(c);
     }
     return share_normals(normals, rows, places, layout_.topology.coded_vertices);

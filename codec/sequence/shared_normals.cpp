@@ -13,6 +13,17 @@
 
 namespace anicodec {
 
+std::vector<uint32_t> rows_of_corners(const Polygons& polygons, AttributeDomain domain) {
+  std::vector<uint32_t> rows = polygons.corners;
+  if (domain == AttributeDomain::kCorner)
+    std::iota(rows.begin(), rows.end(), 0U);
+  if (domain == AttributeDomain::kPolygon) {
+    for (uint32_t p = 0; p < polygons.size(); ++p)
+      std::fill(rows.begin() + polygons.offsets[p], rows.begin() + polygons.offsets[p + 1], p);
+  }
+  return rows;
+}
+
 std::vector<uint32_t> share_normals(const Attribute& normals, std::span<const uint32_t> rows,
                                     std::span<const uint32_t> places, uint32_t place_count) {
   constexpr uint32_t kComponents = 3;
@@ -57,9 +68,8 @@ std::vector<uint32_t> known_shared_normals(const MeshSequence& sequence,
     std::iota(own.begin(), own.end(), 0U);
     return own;
   }
-  std::vector<uint32_t> rows = corners, places = corners;
-  if (normals->per_corner())
-    std::iota(rows.begin(), rows.end(), 0U);
+  const std::vector<uint32_t> rows = rows_of_corners(sequence.polygons, normals->domain);
+  std::vector<uint32_t> places = corners;
   if (!sequence.positions.empty()) {
     std::map<std::array<float, 3>, uint32_t> first;
     for (uint32_t& place : places) {

@@ -11,6 +11,9 @@
 
 namespace anicodec {
 
+/// The row of an attribute's values that each corner has.
+std::vector<uint32_t> rows_of_corners(const Polygons& polygons, AttributeDomain domain);
+
 /// A number below the number of corners for each corner, the same where corners of one place have
 /// normals at most half a degree apart. `rows` says which of the attribute's values a corner has,
 /// `places` (any numbers below place_count) where it is. Throws Error(kInput) unless normals have

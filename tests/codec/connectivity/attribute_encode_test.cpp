@@ -226,6 +226,30 @@ TEST(AttributeEncode, StoresNormalsWhereAsked) {
   EXPECT_EQ(normals->values, clip.attributes[2].values);
 }
 
+TEST(AttributeEncode, TakesTheHardEdgesOfNormalsOfPolygons) {
+  MeshSequence box = corpus::make_clip("painted_box");
+  box.attributes.clear();
+  box.shared_normals.clear();
+  Attribute of_polygons, of_corners;
+  of_polygons.kind = of_corners.kind = AttributeKind::kNormal;
+  of_polygons.components = of_corners.components = 3;
+  of_polygons.domain = AttributeDomain::kPolygon;
+  of_corners.domain = AttributeDomain::kCorner;
+  for (size_t p = 0; p < box.polygons.size(); ++p) {
+    float normal[3] = {};
+    normal[p % 3] = p % 2 == 0 ? 1.0F : -1.0F;
+    of_polygons.values.insert(of_polygons.values.end(), normal, normal + 3);
+    for (size_t c = 0; c < box.polygons[p].size(); ++c)
+      of_corners.values.insert(of_corners.values.end(), normal, normal + 3);
+  }
+  MeshSequence other = box;
+  box.attributes.push_back(of_polygons);
+  other.attributes.push_back(of_corners);
+  EncodeOptions options;
+  options.target = {ErrorMetric::kMaxError, 1, true};
+  EXPECT_EQ(encode(box, options).file, encode(other, options).file);
+}
+
 TEST(AttributeEncode, KeepsDirectionsWithinTheAngle) {
   MeshSequence clip = corpus::make_clip("limb");
   Attribute normals{AttributeKind::kNormal, "NORMAL", AttributeDomain::kVertex, 3, 1, {}};

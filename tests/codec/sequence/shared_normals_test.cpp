@@ -46,6 +46,16 @@ TEST(KnownSharedNormals, KeepNormalsApartThatDiffer) {
   EXPECT_NE(shared[1], shared[3]);
 }
 
+TEST(KnownSharedNormals, OfPolygonsAreThoseOfTheirCorners) {
+  for (const float lean : {0.0F, 0.1F}) {
+    MeshSequence sequence = two_triangles({0, 0, 1}, {0, lean, 1});
+    const std::vector<uint32_t> of_vertices = known_shared_normals(sequence);
+    sequence.attributes[0].domain = AttributeDomain::kPolygon;
+    sequence.attributes[0].values = {0, 0, 1, 0, lean, 1};
+    EXPECT_EQ(known_shared_normals(sequence), of_vertices);
+  }
+}
+
 TEST(KnownSharedNormals, AreThoseOfTheClipWhereItHasSome) {
   MeshSequence sequence = two_triangles({0, 0, 1}, {0, 0, 1});
   sequence.shared_normals = {1, 2, 3, 4, 5, 6};
