@@ -23,6 +23,7 @@
 #include <exception>
 #include <map>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -210,7 +211,9 @@ class MeshEncoder {
       // A mesh that is there at several times stays until the last of them is encoded.
       const double beside = waiting_ - (meshes_[next_].present_in.size() > 1 ? 0 : own);
       waiting_ -= own;
-      encoded[0] = encode(next_, most_bytes_beside(beside, options_.most_bytes), progress_);
+      encoded[0] =
+          encode(next_, most_bytes_beside(beside, options_.most_bytes),
+                 progress_ ? [this](std::string_view, double done) { tell(done); } : Progress());
     }
     next_ += encoded.size();
     return encoded;
@@ -236,7 +239,7 @@ class MeshEncoder {
 
   void encode_together(std::vector<std::vector<EncodedMesh>>& encoded) {
     const uint64_t left = most_bytes_beside(waiting_, options_.most_bytes);
-    const uint64_t most_bytes = left > 0 ? std::max<uint64_t>(left / thread_count(), 1) : 0;
+    const uint64_t most_bytes = left / thread_count();
     for (size_t i = 0; i < encoded.size(); ++i)
       waiting_ -= EncodingMemory::of(meshes_[next_ + i].sequence).positions();
     const std::thread::id caller = std::this_thread::get_id();
@@ -256,11 +259,16 @@ class MeshEncoder {
       }
       ++finished;
       if (progress_ && std::this_thread::get_id() == caller)
-        progress_("encoding",
-                  static_cast<double>(next_ + finished) / static_cast<double>(meshes_.size()));
+        tell(static_cast<double>(finished));
     });
     if (first_error < errors.size())
       std::rethrow_exception(errors[first_error]);
+  }
+
+  /// `done`: meshes of those at work.
+  void tell(double done) const {
+    progress_("encoding",
+              (static_cast<double>(next_) + done) / static_cast<double>(meshes_.size()));
   }
 
   std::vector<EncodedMesh> encode(size_t number, uint64_t most_bytes, const Progress& progress) {

@@ -134,16 +134,22 @@ TEST(EncoderMemory, OfAttributes) {
   expect_within(sequence, options_of(Effort::kNormal));
 }
 
-TEST(EncoderMemory, OfASceneIsThatOfItsMeshes) {
+/// So many times the same mesh.
+Scene scene_of_grids(int meshes, uint32_t vertices, uint32_t frames) {
   Scene scene;
-  scene.clip = corpus::make_wave_grid(400, 100, 4);
-  for (int m = 0; m < 4; ++m) {
+  scene.clip = corpus::make_wave_grid(vertices, frames, 4);
+  for (int m = 0; m < meshes; ++m) {
     SceneMesh& mesh = scene.meshes.emplace_back();
     mesh.sequence = scene.clip;
     mesh.sequence.mesh_name = "mesh" + std::to_string(m);
-    mesh.present_in = {{0, 100}};
+    mesh.present_in = {{0, frames}};
   }
   scene.clip.positions.clear();
+  return scene;
+}
+
+TEST(EncoderMemory, OfASceneIsThatOfItsMeshes) {
+  const Scene scene = scene_of_grids(4, 400, 100);
   EncodeOptions options = options_of(Effort::kFast);
   options.most_bytes = 5'000'000;
   EXPECT_THROW(encode(scene, options), OverMemory);
@@ -154,14 +160,7 @@ TEST(EncoderMemory, OfASceneIsThatOfItsMeshes) {
 }
 
 TEST(EncoderMemory, OfSmallMeshesTogetherIsWithinWhatTheyMayHold) {
-  Scene scene;
-  scene.clip = corpus::make_wave_grid(100, 20, 4);
-  for (int m = 0; m < 30; ++m) {
-    SceneMesh& mesh = scene.meshes.emplace_back();
-    mesh.sequence = scene.clip;
-    mesh.present_in = {{0, 20}};
-  }
-  scene.clip.positions.clear();
+  const Scene scene = scene_of_grids(30, 100, 20);
   EncodeOptions options = options_of(Effort::kFast);
   options.most_bytes = 4 * (36 << 20);
   const HeapCount count;

@@ -194,6 +194,7 @@ TEST(EncodeScene, TellsItsProgressAndLeavesWhenThatThrows) {
 
   double last = 0;
   encode(many_meshes(), usual_target(), [&](std::string_view, double done) {
+    EXPECT_LE(last, done);
     EXPECT_LE(done, 1);
     last = done;
   });
