@@ -7,6 +7,7 @@
 #include "sdk/mesh/split_vertices.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -19,6 +20,9 @@ namespace {
 
 /// Bytes of the head of a file of Draco's own.
 constexpr ptrdiff_t kHead = 11;
+
+/// The least of Draco's tables of symbols, in symbols.
+constexpr int64_t kFewSymbols = 1 << 12;
 
 /// Adds one int32 attribute whose value of point p is written by fill(p, values).
 template <class Fill>
@@ -33,6 +37,15 @@ void add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, size_
     fill(p, values.data());
     mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(p), values.data());
   }
+}
+
+/// Whether values differ by more than there are of them.
+bool is_wide(const draco::PointAttribute& attribute) {
+  const auto count = static_cast<int64_t>(attribute.size()) * attribute.num_components();
+  const auto* first =
+      reinterpret_cast<const int32_t*>(attribute.GetAddress(draco::AttributeValueIndex(0)));
+  const auto [least, largest] = std::minmax_element(first, first + count);
+  return int64_t{*largest} - *least > std::max(kFewSymbols, count);
 }
 
 /// Draco's encoder of attributes over a mesh that it does not encode.
@@ -69,7 +82,20 @@ class PosesEncoder : public draco::MeshEncoder {
   DracoCorners& corners_;
 };
 
+/// How many of the poses behind the first an attribute has.
+size_t poses_of_attribute(size_t poses) {
+  return std::max<size_t>(1, (poses + kMaxDracoAttributes - 3) / (kMaxDracoAttributes - 1));
+}
+
 }  // namespace
+
+double draco_symbol_bytes(double points, size_t poses, double span) {
+  // Deltas from point to point have twice as many symbols, and an entry has four bytes.
+  const auto group = static_cast<double>(poses_of_attribute(poses));
+  const double values = 3 * points * group;
+  const double searched = std::min(span, std::max(double{kFewSymbols}, values));
+  return 8 * searched * std::ceil(static_cast<double>(poses) / group) + 4 * span;
+}
 
 DracoPoses encode_draco_poses(const Topology& topology, std::span<const Vector<int32_t>> poses) {
   DracoPoses coded;
@@ -84,8 +110,7 @@ DracoPoses encode_draco_poses(const Topology& topology, std::span<const Vector<i
   add_attribute(mesh, draco::GeometryAttribute::POSITION, 3, [&](uint32_t p, int32_t* x) {
     std::copy_n(poses[0].data() + size_t{3} * vertex[p], 3, x);
   });
-  const size_t later = poses.size() - 1;
-  const size_t group = (later + kMaxDracoAttributes - 2) / (kMaxDracoAttributes - 1);
+  const size_t group = poses_of_attribute(poses.size());
   for (size_t first = 1; first < poses.size(); first += group) {
     const size_t count = std::min(group, poses.size() - first);
     add_attribute(mesh, draco::GeometryAttribute::GENERIC, 3 * count, [&](uint32_t p, int32_t* x) {
@@ -98,6 +123,11 @@ DracoPoses encode_draco_poses(const Topology& topology, std::span<const Vector<i
   encoder.SetMesh(mesh);
   draco::EncoderOptions options = draco::EncoderOptions::CreateDefaultOptions();
   options.SetSpeed(0, 0);
+  // Draco chooses parallelograms whose symbols are frequent, by a table of all symbols for each attribute.
+  for (int id = 0; id < mesh.num_attributes(); ++id) {
+    if (is_wide(*mesh.attribute(id)))
+      options.SetAttributeInt(id, "prediction_scheme", draco::MESH_PREDICTION_PARALLELOGRAM);
+  }
   draco::EncoderBuffer buffer;
   if (!encoder.Encode(options, &buffer).ok() || buffer.size() < static_cast<size_t>(kHead))
     return coded;

@@ -23,7 +23,12 @@ inline constexpr size_t kMaxDracoPoses = 1 + 63 * 85;
 
 /// Codes poses, each of coded vertices x 3 integers, of which those in triangles are held. Draco
 /// takes neither meshes without triangles nor more than kMaxDracoPoses poses.
+///
+/// Cost: Draco counts symbols in tables as long as coordinates differ, of which draco_symbol_bytes() tells the bytes.
 DracoPoses encode_draco_poses(const Topology& topology, std::span<const Vector<int32_t>> poses);
+
+/// The bytes of Draco's tables of symbols, about: of poses of so many points whose coordinates lie within `span`.
+double draco_symbol_bytes(double points, size_t poses, double span);
 
 }  // namespace anicodec
 

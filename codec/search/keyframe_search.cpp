@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/search/keyframe_search.h"
 
+#include "codec/connectivity/draco_encode.h"
 #include "codec/keyframes/keyframe_count.h"
 #include "codec/segment/keyframe_segment_encode.h"
 #include "codec/sequence/error.h"
@@ -96,15 +97,19 @@ const MsgiFit& KeyframeSearch::fit(double rmse) {
 
 std::optional<CodedSegment> KeyframeSearch::coded(const MsgiFit& fit, double rounding_rms) {
   input_.begin(SearchStep::kTrial);
-  const auto count = static_cast<double>(fit.fit.keyframes.size());
-  const MemoryShare memory =
-      input_.take_memory(input_.sequence.frame_count, "the key-frames that the error takes",
-                         [&](const EncodingMemory& m) {
-                           return m.basis(BasisKind::kKeyframes, count, Effort::kNormal);
-                         });
-  double finest = input_.largest_coordinate * 0x1p-21;
-  double step = std::max(
+  const size_t count = fit.fit.keyframes.size();
+  const double finest = input_.largest_coordinate * 0x1p-21;
+  const double step = std::max(
       {step_for_rounding_error(fit.fit, rounding_rms), finest, std::numeric_limits<double>::min()});
+  const MemoryShare memory = input_.take_memory(
+      input_.sequence.frame_count, "the key-frames that the error takes",
+      [&](const EncodingMemory& m) {
+        // Differences of two poses.
+        const double span =
+            poses_ == KeyframePoses::kNative ? 0 : 4 * input_.largest_coordinate / step;
+        return m.basis(BasisKind::kKeyframes, static_cast<double>(count), Effort::kNormal) +
+               (span > 0 ? draco_symbol_bytes(m.vertices, count, span) : 0);
+      });
   std::optional<EncodedSegment> encoded =
       encode_keyframes(input_.frames(), fit.fit, weights_, fitter_.gram().mean_position(), step,
                        input_.layout, poses_, fit.leaf_faces);
@@ -114,7 +119,7 @@ std::optional<CodedSegment> KeyframeSearch::coded(const MsgiFit& fit, double rou
   segment.encoded = std::move(*encoded);
   segment.opened = open_encoded(segment.encoded, input_.layout);
   segment.error = measure(segment.opened, input_.frames(), input_.copies);
-  segment.what = std::to_string(fit.fit.keyframes.size()) + " key-frames, " +
+  segment.what = std::to_string(count) + " key-frames, " +
                  kWeightNames[static_cast<int>(weights_)] + (fit.leaf_faces > 0 ? ", MSGI" : "");
   return segment;
 }

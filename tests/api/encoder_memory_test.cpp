@@ -8,9 +8,11 @@
 #include "corpus/clips.h"
 #include "tests/heap_count.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -108,6 +110,27 @@ TEST(EncoderMemory, OfKeyframesAndOfExactPositions) {
   options = options_of(Effort::kFast);
   options.target = {ErrorMetric::kMaxError, 0, false};
   expect_within(corpus::make_scaled("limb", 2000, 30), options);
+}
+
+/// Every frame another place for each vertex, far from all others.
+MeshSequence noise(uint32_t vertices, uint32_t frames) {
+  MeshSequence sequence = corpus::make_wave_grid(vertices, frames, 4);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> anywhere(0, 1);
+  std::ranges::generate(sequence.positions, [&] { return anywhere(random); });
+  return sequence;
+}
+
+TEST(EncoderMemory, OfFineKeyframesByDraco) {
+  const MeshSequence sequence = noise(60, 40);
+  EncodeOptions options;
+  options.basis = BasisChoice::kKeyframes;
+  options.keyframe_poses = KeyframePoses::kDraco;
+  for (const double error : {1e-3, 1e-5, 1e-6}) {
+    options.target = {ErrorMetric::kMaxError, error, false};
+    expect_within(sequence, options);
+  }
+  EXPECT_LT(held(sequence, options, 0).value(), 64 << 20);
 }
 
 TEST(EncoderMemory, OfAttributes) {
