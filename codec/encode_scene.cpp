@@ -80,6 +80,7 @@ std::vector<EncodedMesh> encode_runs(SceneMesh mesh, EncodeOptions options, cons
 class SceneResult {
  public:
   SceneResult(const Scene& scene, const SceneExtent& extent) : extent_(extent) {
+    all_.meshes = static_cast<uint32_t>(scene.meshes.size());
     all_.frames = scene.clip.frame_count;
     all_.rate = scene.clip.rate;
     all_.diagonal = extent.diagonal;

@@ -59,6 +59,7 @@ struct MassageVerdict {
 /// The encoded clip and what is known about it. Errors are measured on the decoded file.
 struct EncodeResult {
   Bytes file;
+  uint32_t meshes = 1;
   uint32_t vertices = 0;  ///< of the source; of several meshes, in the frame that shows most
   uint32_t faces = 0;
   uint32_t frames = 0;

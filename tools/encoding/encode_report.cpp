@@ -64,6 +64,7 @@ nlohmann::ordered_json EncodeReport::json() const {
     json["glb_bytes"] = glb_bytes;
   json["ratio"] = rate.ratio;
   json["bpfv"] = rate.bpfv;
+  json["meshes"] = result.meshes;
   json["vertices"] = result.vertices;
   json["faces"] = result.faces;
   json["frames"] = result.frames;
@@ -153,10 +154,12 @@ void EncodeReport::print_text(int verbosity) const {
     frames += fmt::format(" of {} clips", result.clips.size());
   else if (result.frames > 1)
     frames += fmt::format(" at {:.6g} fps ({})", result.rate.value(), origin_of(result.rate));
+  // Meshes have bases of their own.
+  const std::string shape = result.meshes > 1 ? counted(result.meshes, "mesh", "meshes")
+                                              : counted_components(result.components, result.kind);
   print_line(
       "{}: {} bytes, {:.1f} : 1, {:.3f} bpfv; {}; {}; max error {:.4g} ({:.3g} %), KG {:.3g} %",
-      path, grouped(result.file.size()), rate.ratio, rate.bpfv, frames,
-      counted_components(result.components, result.kind), result.max_error,
+      path, grouped(result.file.size()), rate.ratio, rate.bpfv, frames, shape, result.max_error,
       max_error_percent(result), result.kg);
   if (const uint64_t features = features_of(result.file); features != 0)
     print_line("  needs the feature {}, which decoders may lack", feature_names(features));
