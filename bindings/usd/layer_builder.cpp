@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <sstream>
 
 #include <pxr/gf/vec3d.h>
 #include <pxr/gf/vec3f.h>
@@ -15,6 +16,7 @@
 #include <pxr/sdf/listOp.h>
 #include <pxr/sdf/types.h>
 #include <pxr/tf/stringUtils.h>
+#include <pxr/tf/unicodeUtils.h>
 #include <pxr/vt/array.h>
 
 // Macros of OpenUSD name what is in it without saying so.
@@ -43,6 +45,17 @@ bool is_prim_path(const std::string& text) {
   const SdfPath path(text);
   return path.IsPrimPath() && !path.ContainsPrimVariantSelection() &&
          path.GetPathElementCount() <= kMostPathElements;
+}
+
+/// OpenUSD takes neither bytes that are not UTF-8 nor control characters in a path: replacement characters stand for them.
+pxr::SdfAssetPath asset_path(const char* text) {
+  std::ostringstream path;
+  for (const pxr::TfUtf8CodePoint point : pxr::TfUtf8CodePointView(text)) {
+    const uint32_t code = point.AsUInt32();
+    const bool control = code < 0x20 || (code >= 0x7F && code < 0xA0);
+    path << (control ? pxr::TfUtf8CodePoint() : point);
+  }
+  return pxr::SdfAssetPath(path.str());
 }
 
 const char* interpolation(anic_domain domain) {
@@ -437,7 +450,7 @@ void LayerBuilder::add_surface(const SdfPath& material, const anic_material& loo
       add_property(reader, "outputs:result", "float2");
     }
     const SdfPath texture = add_shader(material.AppendChild(TfToken(name)), "UsdUVTexture");
-    add_input(texture, "file", "asset", VtValue(pxr::SdfAssetPath(file)));
+    add_input(texture, "file", "asset", VtValue(asset_path(file)));
     connect(texture.AppendProperty(TfToken("inputs:st")), "float2", reader, "result");
     add_input(texture, "scale", "float4", VtValue(scale));
     add_input(texture, "sourceColorSpace", "token", token(raw ? "raw" : "sRGB"));

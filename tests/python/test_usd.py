@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: The anicodec authors
 """Stages of USD."""
 import json
+import pathlib
 import subprocess
 import sys
 
@@ -15,6 +16,9 @@ pytest.importorskip("pxr", reason="usd-core is not installed")
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, UsdSkel, Vt  # noqa: E402
 
 from anicodec import usd  # noqa: E402
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "scripts"))
+import anic_file  # noqa: E402
 
 
 @pytest.fixture
@@ -463,6 +467,23 @@ def test_materials_keep_values_and_names_of_textures(tmp_path):
         assert textured.base_colour == (1, 1, 1, 1) and textured.base_colour_texture == "shared/skin.png"
         assert (textured.normal_texture, textured.metallic_roughness_texture) == ("./bumps.png", "./orm.png")
         assert (textured.metallic, textured.roughness, textured.emissive_texture) == (1, 1, "")
+
+
+def test_names_of_textures_are_paths_that_usd_takes(tmp_path):
+    look = anicodec.Material(base_colour_texture="wood\x01\n\x7f\x85.png", normal_texture="\u00e4.png")
+    mesh = anicodec.SourceMesh([[(0, 0, 0), (1, 0, 0), (0, 1, 0)]], [(0, 1, 2)], name="a", uv=[(0, 0), (1, 0), (0, 1)],
+                               materials=(["paint"], [0], [look]))
+    data = anicodec.encode_meshes([mesh], effort="fast")
+    cut = anic_file.read_chunks(data)
+    for chunk in cut:
+        chunk.payload = chunk.payload.replace("\u00e4".encode(), b"\xff\xfe")
+    (tmp_path / "a.anic").write_bytes(anic_file.write_chunks(cut))
+    stages = [usd.decode(tmp_path / "a.anic", Usd.Stage.CreateInMemory())]
+    if "anic" in Sdf.FileFormat.FindAllFileFormatExtensions():
+        stages.append(Usd.Stage.Open(str(tmp_path / "a.anic")))
+    for stage in stages:
+        files = [UsdShade.Shader(prim).GetInput("file").Get() for prim in stage.Traverse() if prim.GetTypeName() == "Shader"]
+        assert sorted(file.path for file in files if file) == ["wood\ufffd\ufffd\ufffd\ufffd.png", "\ufffd\ufffd.png"]
 
 
 def test_parts_come_back():

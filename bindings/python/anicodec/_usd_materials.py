@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import unicodedata
 from typing import Any, Callable, Dict, Optional, Tuple
 
 import numpy as np
@@ -17,6 +18,11 @@ _SURFACE, _TEXTURE, _READER = "UsdPreviewSurface", "UsdUVTexture", "UsdPrimvarRe
 _KEPT = ("diffuseColor", "metallic", "roughness", "emissiveColor", "opacity", "opacityThreshold", "normal", "occlusion")
 _PLAIN = {"useSpecularWorkflow": 0, "specularColor": Gf.Vec3f(0), "clearcoat": 0.0, "clearcoatRoughness": 0.01, "ior": 1.5,
           "displacement": 0.0, "opacityMode": "transparent"}
+
+
+def _asset_path(text: str) -> Sdf.AssetPath:
+    """OpenUSD takes no control characters in a path: replacement characters stand for them."""
+    return Sdf.AssetPath("".join("\ufffd" if unicodedata.category(character) in ("Cc", "Cs") else character for character in text))
 
 
 class _Surface:
@@ -141,7 +147,7 @@ def _write_surface(stage: Usd.Stage, material: UsdShade.Material, look: Material
             made["st"].CreateInput("varname", types.String).Set(uv)
             made["st"].CreateOutput("result", types.Float2)
         texture = shader(name, _TEXTURE)
-        texture.CreateInput("file", types.Asset).Set(Sdf.AssetPath(file))
+        texture.CreateInput("file", types.Asset).Set(_asset_path(file))
         texture.CreateInput("st", types.Float2).ConnectToSource(made["st"].ConnectableAPI(), "result")
         texture.CreateInput("scale", types.Float4).Set(Gf.Vec4f(*scale))
         texture.CreateInput("sourceColorSpace", types.Token).Set("raw" if raw else "sRGB")
