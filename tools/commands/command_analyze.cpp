@@ -134,9 +134,14 @@ void print_table(const std::vector<ShapeSpaceError>& rows) {
 
 void run(const AnalyzeCommand& command, const CommonOptions& common) {
   std::vector<size_t> counts = parse_counts(command.counts, "--counts");
+  const std::string kind = std::filesystem::path(command.output).extension();
   std::optional<AtomicFile> output;
-  if (!command.output.empty())
+  if (!command.output.empty()) {
+    if (kind != ".html" && kind != ".svg")
+      throw Error(ErrorKind::kUsage,
+                  command.output + ": is of unknown kind; .html and .svg can be written");
     output.emplace(command.output, common.overwrite);
+  }
   ProgressLine line(common.quiet);
   LoadOptions options;
   options.mesh = command.mesh;
@@ -165,9 +170,7 @@ void run(const AnalyzeCommand& command, const CommonOptions& common) {
     Report report = make_report(sequence, {command.effort, command.full, counts, options.progress});
     report.massage = std::move(massage);
     if (output) {
-      output->write(std::filesystem::path(command.output).extension() == ".svg"
-                        ? rate_figure(report)
-                        : report_page(report));
+      output->write(kind == ".svg" ? rate_figure(report) : report_page(report));
       output->commit();
     }
     line.clear();

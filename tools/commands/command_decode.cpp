@@ -84,7 +84,8 @@ void take_frames(const FrameRange& range, MeshSequence& clip) {
 }
 
 bool is_written_by_frame(const std::string& path) {
-  return format_of(path)->frame_writer != nullptr;
+  const FileFormat* const format = format_of(path);
+  return format && format->frame_writer != nullptr;
 }
 
 /// Frames that are written together, and the meshes that they show.

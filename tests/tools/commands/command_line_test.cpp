@@ -14,6 +14,7 @@ namespace anicodec::tools {
 namespace {
 
 using testing::AllOf;
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -127,6 +128,39 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   expect_usage_error(anicodec({"dump", "a.anic", "b.anic"}));
   expect_usage_error(anicodec({"usd-plugin", "undo"}));
   expect_usage_error(anicodec({"encode", "a.pc2", "-o", "a.anic", "-j0"}));
+}
+
+TEST(CommandLine, RefusesOutputsOfUnknownKind) {
+  TemporaryFolder folder;
+  const std::string cache = folder / "a.pc2", mesh = folder / "a.obj", clip = folder / "a.anic",
+                    output = folder / "b.xyz";
+  ASSERT_EQ(
+      anicodec({"corpus", "limb", "-o", cache, "--vertices", "100", "--frame-count", "4"}).status,
+      0);
+  ASSERT_EQ(anicodec({"encode", cache, "-o", clip}).status, 0);
+  const std::vector<std::string> before = folder.files();
+  for (std::vector<std::string> call : {std::vector<std::string>{"encode", cache},
+                                        {"decode", clip},
+                                        {"join", clip, clip},
+                                        {"analyze", cache},
+                                        {"interpolate", mesh, mesh, "--frame-count", "3"},
+                                        {"massage", cache},
+                                        {"massage", "fit", mesh, mesh},
+                                        {"massage", "map", mesh, mesh},
+                                        {"massage", "transfer", mesh, mesh, mesh},
+                                        {"massage", "remesh", mesh, "--vertices", "80"},
+                                        {"render", clip},
+                                        {"corpus", "limb"},
+                                        {"add", clip, cache},
+                                        {"remove", clip, "a"}}) {
+    call.insert(call.end(), {"-o", output});
+    const Outcome outcome = anicodec(call);
+    expect_usage_error(outcome);
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr(output + ": "),
+                                   AnyOf(HasSubstr("of unknown kind"), HasSubstr("not .xyz"))))
+        << call[0];
+  }
+  EXPECT_EQ(folder.files(), before);
 }
 
 TEST(CommandLine, NamesThePackageThatHasTheRest) {
