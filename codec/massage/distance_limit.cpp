@@ -46,7 +46,16 @@ uint32_t limit_distance(const Surface& original, double limit, Positions* v) {
   for (int pass = 0;; ++pass) {
     std::vector<bool> back(topology.vertex_count, false);
     bool any = false;
+    auto at_rest = [&](const SurfaceTopology::Triangle& t) {
+      return std::all_of(t.begin(), t.end(), [&](uint32_t i) {
+        const auto r = static_cast<Eigen::Index>(i);
+        return v->row(r) == original.positions().row(r);
+      });
+    };
+    // Triangles at rest stay where they are, even if rounding alone leads beyond the limit.
     auto mark = [&](uint32_t triangle) {
+      if (at_rest(topology.triangles[triangle]))
+        return;
       for (uint32_t i : topology.triangles[triangle]) {
         back[i] = drawn[i] = true;
         any = true;
@@ -76,16 +85,8 @@ uint32_t limit_distance(const Surface& original, double limit, Positions* v) {
         });
       }
     };
-    auto at_rest = [&](const SurfaceTopology::Triangle& t) {
-      return std::all_of(t.begin(), t.end(), [&](uint32_t i) {
-        const auto r = static_cast<Eigen::Index>(i);
-        return v->row(r) == original.positions().row(r);
-      });
-    };
-    for (uint32_t t : turned) {
-      if (!at_rest(topology.triangles[t]))
-        mark(t);
-    }
+    for (uint32_t t : turned)
+      mark(t);
     if (limit < std::numeric_limits<double>::infinity())
       mark_far();
     if (!any)
@@ -96,9 +97,8 @@ uint32_t limit_distance(const Surface& original, double limit, Positions* v) {
         continue;
       moved.push_back(i);
       const Vector3d start = row(original.positions(), i);
-      const double share = pass < kMostPasses ? 0.5 : 0;
-      v->row(static_cast<Eigen::Index>(i)) =
-          float_position(start + share * (row(*v, i) - start)).transpose();
+      const Vector3d half = float_position(start + 0.5 * (row(*v, i) - start));
+      v->row(static_cast<Eigen::Index>(i)) = (pass < kMostPasses ? half : start).transpose();
     }
     turned = turned_around(topology, *v, moved, original, same);
   }

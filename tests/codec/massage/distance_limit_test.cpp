@@ -35,5 +35,19 @@ TEST(DistanceLimit, LeavesAnUnmovedSurface) {
   EXPECT_EQ(limit_distance(surface, 1e-9, &v), 0U);
 }
 
+TEST(DistanceLimit, BelowRoundingLeavesNothingMoved) {
+  const TestMesh ball = sphere(4);
+  Surface surface(ball.topology, ball.positions);
+  surface.build_index();
+  for (const double limit : {0.0, 1e-30, 1e-200}) {
+    for (const double moved : {0.3, 1e10}) {
+      Positions v = ball.positions;
+      v(5, 1) += moved;
+      limit_distance(surface, limit, &v);
+      EXPECT_EQ(v, ball.positions) << limit << " " << moved;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace anicodec
