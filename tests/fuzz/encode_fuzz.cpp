@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 // Any bytes as decisions about clips, odd ones among them, and options to encode them by, through the C interface: what
-// cannot be encoded is refused with a text; what can, opens with all that it was made of.
+// cannot be encoded is refused with a text; what can, opens with all that it was made of, and took no more memory than it
+// might.
 #include "tests/fuzz/fuzz_file.h"
+#include "tests/heap_count.h"
 
 #include <anicodec/anicodec.h>
 #include <anicodec/encode.h>
@@ -62,7 +64,9 @@ class Encoding {
     anic_encode_options options = ANIC_INIT(anic_encode_options);
     choose(&options);
     anic_encoding result = ANIC_INIT(anic_encoding);
+    const HeapCount heap;  // of this thread
     const anic_status status = anic_encode(encoder_, &options, &result);
+    require(options.max_bytes == 0 || options.threads > 1 || heap.peak() <= options.max_bytes);
     if (taken(status) && result.file)
       open(result, options);
   }
@@ -260,7 +264,7 @@ class Encoding {
       options->goal_value = options->max_error = 0;
     }
     options->order = static_cast<anic_order>(below(3));
-    options->max_bytes = one_in(8) ? 1000 * below(256) : 0;
+    options->max_bytes = one_in(4) ? 65536 * (1 + below(256)) : 0;
     options->threads = one_in(4) ? 2 : 1;
     options->basis = static_cast<anic_basis_choice>(below(4));
     const bool by_keyframes = options->basis == ANIC_CHOOSE_KEYFRAMES || one_in(16);
