@@ -81,6 +81,8 @@ class LayerBuilder {
       properties_;
 };
 
+pxr::VtValue token(const char* text);
+
 /// The text where it names a prim as it is, else one near it that does.
 std::string identifier(const std::string& text);
 

@@ -22,7 +22,7 @@ _PLAIN = {"useSpecularWorkflow": 0, "specularColor": Gf.Vec3f(0), "clearcoat": 0
 
 def _asset_path(text: str) -> Sdf.AssetPath:
     """OpenUSD takes no control characters in a path: replacement characters stand for them."""
-    return Sdf.AssetPath("".join("\ufffd" if unicodedata.category(character) in ("Cc", "Cs") else character for character in text))
+    return Sdf.AssetPath("".join("\ufffd" if unicodedata.category(character) == "Cc" else character for character in text))
 
 
 class _Surface:
