@@ -84,8 +84,7 @@ void take_frames(const FrameRange& range, MeshSequence& clip) {
 }
 
 bool is_written_by_frame(const std::string& path) {
-  const FileFormat* const format = format_of(path);
-  return format && format->frame_writer != nullptr;
+  return output_format(path).frame_writer != nullptr;
 }
 
 /// Frames that are written together, and the meshes that they show.
@@ -168,6 +167,7 @@ Written write_archive(const DecodePaths& paths, const PlayedClip& clip, const Fr
 }
 
 void decode(const DecodeCommand& command, const DecodePaths& paths, const CommonOptions& common) {
+  const bool by_frame = is_written_by_frame(paths.output);
   ProgressLine line(common.quiet);
   std::string bytes = read_bytes(paths.input);
   const double quality = command.quality.empty() ? 1 : parse_share(command.quality, "--quality");
@@ -200,7 +200,6 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
     images = load_images(command.textures);
     options.images = &images;
   }
-  const bool by_frame = is_written_by_frame(paths.output);
   std::vector<DecodeRun> runs{{range, clip.meshes()}};
   if (by_frame)
     runs = runs_of(clip, range);
@@ -215,7 +214,7 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
     options.first_number = number_of(run.frames);
     check_sequence_output(paths.output, run.frames.size(), options);
   }
-  if (format_of(paths.output)->write_tracks) {
+  if (output_format(paths.output).write_tracks) {
     const Written written = write_archive(paths, clip, range, options);
     line.clear();
     return print_written(written, common);

@@ -67,8 +67,7 @@ bool keeps_origin(const std::string& path, bool ascii) {
   return format && (format->has_room_for_origin || (ascii && format->text_has_room_for_origin));
 }
 
-void check_sequence_output(const std::string& path, uint32_t frame_count,
-                           const WriteOptions& options) {
+const FileFormat& output_format(const std::string& path) {
   const FileFormat* format = format_of(path);
   if (format && format->carries_clip && !format->is_written())
     fail_usage(path, "glTF is written in one file; name it .glb");
@@ -77,7 +76,12 @@ void check_sequence_output(const std::string& path, uint32_t frame_count,
                std::string(format ? "is of a kind that is not written" : "is of unknown kind") +
                    "; " + list_formats([](const FileFormat& f) { return f.is_written(); }) +
                    " can be written" + package_hint(path));
-  if (!format->frame_writer) {
+  return *format;
+}
+
+void check_sequence_output(const std::string& path, uint32_t frame_count,
+                           const WriteOptions& options) {
+  if (!output_format(path).frame_writer) {
     check_output(path, options.overwrite);
     if (is_cache(path))
       check_output(mesh_of_cache(path), options.overwrite);
@@ -103,7 +107,7 @@ void write_sequence(const std::string& path, const MeshSequence& clip, const Fra
   OutputFolder folder(path);
   const FrameSource frames = checked(clip, source, options.progress);
   const OutputClip output{path, clip, frames, source, own};
-  const FileFormat& format = *format_of(path);
+  const FileFormat& format = output_format(path);
   if (format.write_clip)
     format.write_clip(output);
   else
@@ -117,7 +121,7 @@ void write_tracks(const std::string& path, const MeshSequence& clip,
                   std::span<const AlembicTrack> tracks, const WriteOptions& options) {
   check_sequence_output(path, clip.frame_count, options);
   OutputFolder folder(path);
-  format_of(path)->write_tracks(path, clip, tracks, options);
+  output_format(path).write_tracks(path, clip, tracks, options);
   folder.keep();
   if (options.progress)
     options.progress("writing", 1);

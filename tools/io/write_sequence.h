@@ -6,6 +6,7 @@
 #include "codec/sequence/frame_source.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "tools/io/alembic/alembic_output.h"
+#include "tools/io/base/file_format.h"
 #include "tools/io/base/write_options.h"
 
 #include <cstdint>
@@ -41,6 +42,9 @@ void write_sequence(const std::string& path, const MeshSequence& clip,
 /// archive. Throws as write_sequence().
 void write_tracks(const std::string& path, const MeshSequence& clip,
                   std::span<const AlembicTrack> tracks, const WriteOptions& options);
+
+/// The format of an output by its name. Throws Error(kUsage) where it is unknown or not written.
+const FileFormat& output_format(const std::string& path);
 
 /// Throws the Error(kUsage) that write_sequence would throw for a bad name or an existing output,
 /// before anything is computed or written.
