@@ -43,20 +43,21 @@ uint32_t limit_distance(const Surface& original, double limit, Positions* v) {
   std::vector<uint32_t> same(topology.triangles.size());
   std::iota(same.begin(), same.end(), 0U);
   std::vector<uint32_t> turned = turned_in_place(*v, original);
+  const auto at_rest = [&](const SurfaceTopology::Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](uint32_t i) {
+      const auto r = static_cast<Eigen::Index>(i);
+      return v->row(r) == original.positions().row(r);
+    });
+  };
   for (int pass = 0;; ++pass) {
     std::vector<bool> back(topology.vertex_count, false);
     bool any = false;
-    auto at_rest = [&](const SurfaceTopology::Triangle& t) {
-      return std::all_of(t.begin(), t.end(), [&](uint32_t i) {
-        const auto r = static_cast<Eigen::Index>(i);
-        return v->row(r) == original.positions().row(r);
-      });
-    };
     // Triangles at rest stay where they are, even if rounding alone leads beyond the limit.
     auto mark = [&](uint32_t triangle) {
-      if (at_rest(topology.triangles[triangle]))
+      const SurfaceTopology::Triangle& corners = topology.triangles[triangle];
+      if (at_rest(corners))
         return;
-      for (uint32_t i : topology.triangles[triangle]) {
+      for (uint32_t i : corners) {
         back[i] = drawn[i] = true;
         any = true;
       }
