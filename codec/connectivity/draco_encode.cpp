@@ -21,7 +21,7 @@ namespace {
 /// Bytes of the head of a file of Draco's own.
 constexpr ptrdiff_t kHead = 11;
 
-/// The least of Draco's tables of symbols, in symbols.
+/// Tables of so many symbols are small, however few values there are.
 constexpr int64_t kFewSymbols = 1 << 12;
 
 /// Adds one int32 attribute whose value of point p is written by fill(p, values).
@@ -39,7 +39,7 @@ void add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, size_
   }
 }
 
-/// Whether values differ by more than there are of them.
+/// Whether a table of symbols would be longer than the values that it counts.
 bool is_wide(const draco::PointAttribute& attribute) {
   const auto count = static_cast<int64_t>(attribute.size()) * attribute.num_components();
   const auto* first =

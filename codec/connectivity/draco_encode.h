@@ -27,7 +27,7 @@ inline constexpr size_t kMaxDracoPoses = 1 + 63 * 85;
 /// Cost: Draco counts symbols in tables as long as coordinates differ, of which draco_symbol_bytes() tells the bytes.
 DracoPoses encode_draco_poses(const Topology& topology, std::span<const Vector<int32_t>> poses);
 
-/// The bytes of Draco's tables of symbols, about: of poses of so many points whose coordinates lie within `span`.
+/// About the bytes of Draco's tables of symbols, for poses of so many points whose coordinates differ by at most `span`.
 double draco_symbol_bytes(double points, size_t poses, double span);
 
 }  // namespace anicodec

@@ -108,7 +108,7 @@ std::optional<CodedSegment> KeyframeSearch::coded(const MsgiFit& fit, double rou
         const double span =
             poses_ == KeyframePoses::kNative ? 0 : 4 * input_.largest_coordinate / step;
         return m.basis(BasisKind::kKeyframes, static_cast<double>(count), Effort::kNormal) +
-               (span > 0 ? draco_symbol_bytes(m.vertices, count, span) : 0);
+               draco_symbol_bytes(m.vertices, count, span);
       });
   std::optional<EncodedSegment> encoded =
       encode_keyframes(input_.frames(), fit.fit, weights_, fitter_.gram().mean_position(), step,
