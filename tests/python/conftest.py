@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
 """Clips that the tests share."""
+import pathlib
 import subprocess
 import sys
 
@@ -8,6 +9,8 @@ import numpy as np
 import pytest
 
 import anicodec
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scripts"))  # anic_file
 
 
 @pytest.fixture(scope="session")

@@ -4,20 +4,17 @@
 import base64
 import io
 import os
-import pathlib
 import pickle
 import sys
 import types
 from concurrent.futures import ThreadPoolExecutor
 from xml.etree import ElementTree
 
+import anic_file
 import numpy as np
 import pytest
 
 import anicodec
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "scripts"))
-import anic_file  # noqa: E402
 
 
 def test_frames_keep_the_promise(wave, clip):

@@ -2,10 +2,10 @@
 # SPDX-FileCopyrightText: The anicodec authors
 """Stages of USD."""
 import json
-import pathlib
 import subprocess
 import sys
 
+import anic_file
 import numpy as np
 import pytest
 
@@ -16,9 +16,6 @@ pytest.importorskip("pxr", reason="usd-core is not installed")
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, UsdSkel, Vt  # noqa: E402
 
 from anicodec import usd  # noqa: E402
-
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "scripts"))
-import anic_file  # noqa: E402
 
 
 @pytest.fixture
